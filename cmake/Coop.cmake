@@ -1,0 +1,82 @@
+# The house's building blocks: every library, program and test is declared with one of these functions.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+add_library(coop_options INTERFACE)
+target_include_directories(coop_options INTERFACE "${PROJECT_SOURCE_DIR}/components")
+target_compile_options(coop_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror
+  # gcc 12 reports false positives of these inside the standard library at -O2.
+  -Wno-error=maybe-uninitialized -Wno-error=array-bounds -Wno-error=stringop-overflow -Wno-error=restrict
+  # One result on every processor: no contraction to fused multiply-add.
+  -ffp-contract=off)
+if(COOP_SANITIZER)
+  target_compile_options(coop_options INTERFACE -fsanitize=${COOP_SANITIZER} -fno-omit-frame-pointer)
+  target_link_options(coop_options INTERFACE -fsanitize=${COOP_SANITIZER})
+endif()
+
+# Those of the folders named that hold a CMakeLists.txt.
+function(coop_add_subdirectories)
+  foreach(dir IN LISTS ARGN)
+    if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/${dir}/CMakeLists.txt")
+      add_subdirectory("${dir}")
+    endif()
+  endforeach()
+endfunction()
+
+# coop_library(NAME SOURCES ... [LINK ...]) -> static library target coop_NAME
+function(coop_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(coop_${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(coop_${name} PUBLIC coop_options ${ARG_LINK})
+endfunction()
+
+# coop_node(NAME [SOURCES ...] [LINK ...]): the shell of a component in node/: library coop_NAME_node (for component
+# tests) and executable NAME. Skipped in a core-only build.
+function(coop_node name)
+  if(COOP_CORE_ONLY)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(coop_${name}_node STATIC ${ARG_SOURCES})
+  target_link_libraries(coop_${name}_node PUBLIC coop_options coop_runtime coop_conversions ${ARG_LINK})
+  add_executable(${name} node/main.cpp)
+  target_link_libraries(${name} PRIVATE coop_${name}_node)
+  install(TARGETS ${name} RUNTIME DESTINATION lib/coop)
+endfunction()
+
+# coop_test(NAME SOURCES ... [LINK ...] [LABELS unit|component|system]): a GoogleTest program NAME
+function(coop_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  if(NOT ARG_LABELS)
+    set(ARG_LABELS unit)
+  endif()
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  target_compile_definitions(${name} PRIVATE COOP_SOURCE_DIR="${PROJECT_SOURCE_DIR}" COOP_BIN_DIR="${PROJECT_BINARY_DIR}/bin")
+  target_link_libraries(${name} PRIVATE coop_options ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
+  add_test(NAME ${name} COMMAND ${name})
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
+    WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+endfunction()
+
+# coop_bench(NAME SOURCES ... [LINK ...]): a Google Benchmark program NAME
+function(coop_bench name)
+  if(NOT TARGET benchmark::benchmark_main)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  target_compile_definitions(${name} PRIVATE COOP_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${name} PRIVATE coop_options ${ARG_LINK} benchmark::benchmark_main)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bench")
+endfunction()
