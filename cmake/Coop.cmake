@@ -11,7 +11,7 @@ target_include_directories(coop_options INTERFACE "${PROJECT_SOURCE_DIR}/compone
 target_compile_options(coop_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror
   # gcc 12 reports false positives of these inside the standard library at -O2.
-  -Wno-error=maybe-uninitialized -Wno-error=array-bounds -Wno-error=stringop-overflow -Wno-error=restrict
+  -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict
   # One result on every processor: no contraction to fused multiply-add.
   -ffp-contract=off)
 if(COOP_SANITIZER)

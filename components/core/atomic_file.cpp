@@ -51,8 +51,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   const std::filesystem::path draft =
       folder / ("." + path.filename().string() + "." + std::to_string(::getpid()) + ".tmp");
   try {
-    const FileDescriptor fd(
-        ::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+    const FileDescriptor fd(::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
     if (fd.get() < 0) throw_errno("cannot create", draft);
     write_all(fd.get(), content, draft);
     if (::fsync(fd.get()) != 0) throw_errno("cannot sync", draft);

@@ -5,8 +5,9 @@
 
 namespace coop {
 
-/// Replaces the file's content as a whole or not at all: written beside it, synced, renamed; the folder is created where
-/// it is missing. Throws std::system_error naming the file (disk full, no permission); the old content then stands.
+/// Replaces the file's content as a whole or not at all: written beside it, synced, renamed; the
+/// folder is created where it is missing. Throws std::system_error naming the file (disk full, no
+/// permission); the old content then stands.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
 /// The whole file. Throws std::system_error naming the file.

@@ -14,7 +14,8 @@ struct Cell {
   bool operator==(const Cell&) const = default;
 };
 
-/// Where a grid lies in its frame. The origin is the outer corner of cell (0, 0); grids are never rotated.
+/// Where a grid lies in its frame. The origin is the outer corner of cell (0, 0); grids are never
+/// rotated.
 struct GridGeometry {
   int width = 0;            ///< cells
   int height = 0;           ///< cells

@@ -16,9 +16,12 @@ inline double normalize_angle(double angle) {
 }
 
 /// Shortest signed turn from angle `from` to angle `to`, in [-pi, pi).
-inline double angle_difference(double to, double from) { return normalize_angle(to - from); }
+inline double angle_difference(double to, double from) {
+  return normalize_angle(to - from);
+}
 
-/// Planar pose, metres and radians. The name of a variable says the frame: `robot_in_map`. a_in_b * c_in_a = c_in_b.
+/// Planar pose, metres and radians. The name of a variable says the frame: `robot_in_map`. a_in_b *
+/// c_in_a = c_in_b.
 struct Pose2 {
   double x = 0.0;
   double y = 0.0;
@@ -45,7 +48,9 @@ struct Pose2 {
   bool operator==(const Pose2&) const = default;
 };
 
-inline double distance(const Pose2& a, const Pose2& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+inline double distance(const Pose2& a, const Pose2& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
 
 /// Pose between `a` (ratio 0) and `b` (ratio 1): position linear, yaw the short way round.
 inline Pose2 interpolate(const Pose2& a, const Pose2& b, double ratio) {

@@ -5,10 +5,10 @@
 
 namespace coop {
 
-/// A named stream of random numbers: the same seed and name give the same numbers on every machine, and one stream's use
-/// cannot shift another's. Generator: xoshiro256++ (Blackman, Vigna 2019), seeded by SplitMix64 over seed and a hash of
-/// the name. Meets UniformRandomBitGenerator, but the standard library's distributions differ between implementations:
-/// use the members.
+/// A named stream of random numbers: the same seed and name give the same numbers on every machine,
+/// and one stream's use cannot shift another's. Generator: xoshiro256++ (Blackman, Vigna 2019),
+/// seeded by SplitMix64 over seed and a hash of the name. Meets UniformRandomBitGenerator, but the
+/// standard library's distributions differ between implementations: use the members.
 class RandomStream {
  public:
   using result_type = std::uint64_t;

@@ -4,8 +4,8 @@
 
 namespace coop {
 
-/// A value, or the reason why there is none, for absence that is to be expected (no transform yet, no path). Errors of
-/// the user (bad configuration, bad file at start) are exceptions instead.
+/// A value, or the reason why there is none, for absence that is to be expected (no transform yet,
+/// no path). Errors of the user (bad configuration, bad file at start) are exceptions instead.
 template <class T, class E = std::string>
 using Result = tl::expected<T, E>;
 

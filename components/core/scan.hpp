@@ -8,9 +8,10 @@
 
 namespace coop {
 
-/// One sweep of a planar range finder. Beam i points at angle_min + i * angle_increment in `frame_id` (x forward, yaw
-/// counter-clockwise). A range below range_min or above range_max, or NaN, is no measurement; +inf or any value above
-/// range_max means "nothing within range_max" (REP 117).
+/// One sweep of a planar range finder. Beam i points at angle_min + i * angle_increment in
+/// `frame_id` (x forward, yaw counter-clockwise). A range below range_min or above range_max, or
+/// NaN, is no measurement; +inf or any value above range_max means "nothing within range_max" (REP
+/// 117).
 struct LaserScan {
   Time stamp{};  ///< acquisition of the first beam
   std::string frame_id;

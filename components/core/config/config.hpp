@@ -10,21 +10,24 @@
 
 namespace coop::config {
 
-/// A YAML mapping to be read into configuration structs, strictly: an unknown key, a wrong type or a value out of bounds
-/// is an Error that says file, line, key, what was expected and, for a key, the nearest valid name.
+/// A YAML mapping to be read into configuration structs, strictly: an unknown key, a wrong type or
+/// a value out of bounds is an Error that says file, line, key, what was expected and, for a key,
+/// the nearest valid name.
 class Document {
  public:
-  /// Throws Error when the file is missing or is no YAML mapping. An empty file is an empty mapping.
+  /// Throws Error when the file is missing or is no YAML mapping. An empty file is an empty
+  /// mapping.
   static Document load(const std::filesystem::path& path);
   /// `name` stands for the file in messages.
   static Document parse(std::string_view yaml, std::string name);
   Document();
 
-  /// Applies `key.sub.key=value` (value in YAML) on top. Throws Error where it is malformed; whether the key exists is
-  /// found when the document is read.
+  /// Applies `key.sub.key=value` (value in YAML) on top. Throws Error where it is malformed;
+  /// whether the key exists is found when the document is read.
   void set(std::string_view assignment);
 
-  /// Fills `fields` of the struct from the document; what the document does not name keeps its value.
+  /// Fills `fields` of the struct from the document; what the document does not name keeps its
+  /// value.
   template <class Struct>
   void read(Struct& value) const {
     auto reader = make_reader();

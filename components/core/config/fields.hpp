@@ -8,7 +8,8 @@
 
 namespace coop::config {
 
-/// What the reference tables and the error messages say of a field, and its bounds (both inclusive).
+/// What the reference tables and the error messages say of a field, and its bounds (both
+/// inclusive).
 struct Spec {
   std::string_view unit = "";
   std::string_view help = "";
@@ -16,16 +17,17 @@ struct Spec {
   double max = std::numeric_limits<double>::infinity();
 };
 
-/// A visitor over the fields of a configuration struct. Each struct has defaults in its member initialisers and
+/// A visitor over the fields of a configuration struct. Each struct has defaults in its member
+/// initialisers and
 ///
 ///   void describe(config::Fields& fields) {
-///     fields.number("max_vel_x", max_vel_x, {.unit = "m/s", .help = "fastest forward", .min = 0, .max = 2});
-///     fields.section("footprint", footprint);
+///     fields.number("max_vel_x", max_vel_x, {.unit = "m/s", .help = "fastest forward", .min = 0,
+///     .max = 2}); fields.section("footprint", footprint);
 ///   }
 ///   void validate() const;   // optional: throws config::Error for what bounds cannot say
 ///
-/// One describe() serves reading strict YAML, --set overrides, printing the configuration in force and the tables of the
-/// documentation. Algorithm libraries see this header only, never yaml-cpp.
+/// One describe() serves reading strict YAML, --set overrides, printing the configuration in force
+/// and the tables of the documentation. Algorithm libraries see this header only, never yaml-cpp.
 class Fields {
  public:
   virtual ~Fields() = default;
@@ -59,7 +61,8 @@ class Fields {
     end_section();
   }
 
-  /// A sequence of structs, each with its own describe(). An element starts from the struct's defaults.
+  /// A sequence of structs, each with its own describe(). An element starts from the struct's
+  /// defaults.
   template <class Struct>
   void list(std::string_view name, std::vector<Struct>& values) {
     std::size_t size = values.size();
