@@ -17,6 +17,23 @@ struct Spec {
   double max = std::numeric_limits<double>::infinity();
 };
 
+/// One value of a mapping whose keys are free: dotted key, value as one line of YAML, and the place
+/// (`file:line` or
+/// `--set`) for messages.
+struct Assignment {
+  std::string key;
+  std::string value;
+  std::string where;
+};
+
+/// A struct that stands under a name of the user's choice, and the place of that name.
+template <class Struct>
+struct Named {
+  std::string name;
+  std::string where;
+  Struct value;
+};
+
 /// A visitor over the fields of a configuration struct. Each struct has defaults in its member
 /// initialisers and
 ///
@@ -41,6 +58,12 @@ class Fields {
                       std::span<const std::string_view> choices, const Spec& spec) = 0;
   virtual void numbers(std::string_view name, std::vector<double>& value, const Spec& spec) = 0;
   virtual void texts(std::string_view name, std::vector<std::string>& value, const Spec& spec) = 0;
+  /// A mapping with free keys, flattened (`limits: {v: 1}` is `limits.v`). Keys that `value` holds
+  /// already are replaced, new ones appended.
+  virtual void assignments(std::string_view name, std::vector<Assignment>& value,
+                           const Spec& spec) = 0;
+  /// `file:line` of a field that is read now, or empty where the input does not hold it.
+  [[nodiscard]] virtual std::string where(std::string_view name) const = 0;
 
   void integer(std::string_view name, int& value, const Spec& spec) {
     constexpr double kLow = std::numeric_limits<int>::min();
@@ -76,6 +99,27 @@ class Fields {
     end_list();
   }
 
+  /// A mapping from names to structs, each with its own describe(), in the order of the file. A
+  /// name that `values` holds already keeps what the file does not say; a new one starts from the
+  /// struct's defaults.
+  template <class Struct>
+  void mapping(std::string_view name, std::vector<Named<Struct>>& values) {
+    std::vector<std::string> names;
+    for (const auto& element : values) names.push_back(element.name);
+    if (!begin_mapping(name, names)) return;
+    for (const std::string& key : names) {
+      auto found = values.begin();
+      while (found != values.end() && found->name != key) ++found;
+      if (found == values.end()) found = values.insert(found, {key, "", Struct{}});
+      const std::string place = where(key);
+      if (!place.empty()) found->where = place;
+      if (!begin_section(key)) continue;
+      found->value.describe(*this);
+      end_section();
+    }
+    end_section();
+  }
+
  protected:
   virtual bool begin_section(std::string_view name) = 0;
   virtual void end_section() = 0;
@@ -83,6 +127,8 @@ class Fields {
   virtual bool begin_list(std::string_view name, std::size_t& size) = 0;
   virtual void begin_element(std::size_t index) = 0;
   virtual void end_list() = 0;
+  /// Sets `names` to the names to visit.
+  virtual bool begin_mapping(std::string_view name, std::vector<std::string>& names) = 0;
 };
 
 }  // namespace coop::config

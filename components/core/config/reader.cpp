@@ -25,6 +25,34 @@ bool is_quoted(const YAML::Node& node) {
   return node.Tag() == "!";
 }
 
+/// A value as one line of YAML that reads back as the same value.
+void emit_in_one_line(YAML::Emitter& out, const YAML::Node& node) {
+  if (node.IsMap()) {
+    out << YAML::Flow << YAML::BeginMap;
+    for (const auto& entry : node) {
+      out << YAML::Key << entry.first.as<std::string>("") << YAML::Value;
+      emit_in_one_line(out, entry.second);
+    }
+    out << YAML::EndMap;
+  } else if (node.IsSequence()) {
+    out << YAML::Flow << YAML::BeginSeq;
+    for (const auto& item : node) emit_in_one_line(out, item);
+    out << YAML::EndSeq;
+  } else if (node.IsScalar()) {
+    if (is_quoted(node)) out << YAML::DoubleQuoted;
+    out << node.Scalar();
+  } else {
+    out << YAML::Null;
+  }
+}
+
+std::string in_one_line(const YAML::Node& node) {
+  if (node.IsScalar() && !is_quoted(node)) return node.Scalar();
+  YAML::Emitter out;
+  emit_in_one_line(out, node);
+  return out.c_str();
+}
+
 }  // namespace
 
 std::string Source::where(const YAML::Node& node, const std::string& key) const {
@@ -150,9 +178,54 @@ void Reader::texts(std::string_view name, std::vector<std::string>& value, const
   value = std::move(read);
 }
 
+void Reader::flatten(const YAML::Node& node, const std::string& path, const std::string& prefix,
+                     std::vector<Assignment>& value) const {
+  for (const auto& entry : node) {
+    const auto key = entry.first.as<std::string>("");
+    if (entry.second.IsMap() && entry.second.size() > 0) {
+      flatten(entry.second, path + "." + key, prefix + key + ".", value);
+      continue;
+    }
+    Assignment read{prefix + key, in_one_line(entry.second),
+                    source_.where(entry.first, path + "." + key)};
+    const auto same = std::ranges::find(value, read.key, &Assignment::key);
+    if (same == value.end()) {
+      value.push_back(std::move(read));
+    } else {
+      *same = std::move(read);
+    }
+  }
+}
+
+void Reader::assignments(std::string_view name, std::vector<Assignment>& value, const Spec&) {
+  const YAML::Node node = take(name);
+  if (!node.IsDefined() || node.IsNull()) return;
+  if (!node.IsMap()) reject(node, name, "a mapping");
+  flatten(node, path_of(name), "", value);
+}
+
+std::string Reader::where(std::string_view name) const {
+  const Level& level = stack_.back();
+  if (!level.node.IsDefined() || !level.node.IsMap()) return "";
+  for (const auto& entry : level.node) {
+    if (entry.first.as<std::string>("") == name) {
+      return source_.where(entry.first, path_of(name));
+    }
+  }
+  return "";
+}
+
+bool Reader::begin_mapping(std::string_view name, std::vector<std::string>& names) {
+  names.clear();
+  if (!begin_section(name)) return false;
+  for (const auto& entry : stack_.back().node) names.push_back(entry.first.as<std::string>(""));
+  return true;
+}
+
 bool Reader::begin_section(std::string_view name) {
   const YAML::Node node = take(name);
-  if (!node.IsDefined()) return false;
+  // `key:` with nothing after it is an empty mapping.
+  if (!node.IsDefined() || node.IsNull()) return false;
   if (!node.IsMap()) reject(node, name, "a mapping");
   stack_.push_back({node, path_of(name), {}});
   return true;
@@ -187,10 +260,14 @@ void Reader::end_list() {
 
 void Reader::reject_unknown(const Level& level) const {
   if (!level.node.IsDefined() || !level.node.IsMap()) return;
+  std::set<std::string> seen;
   for (const auto& entry : level.node) {
     const auto key = entry.first.as<std::string>("");
-    if (std::ranges::find(level.known, key) != level.known.end()) continue;
     const std::string path = level.path.empty() ? key : level.path + "." + key;
+    if (!seen.insert(key).second) {
+      throw Error(source_.where(entry.first, path) + ": key '" + path + "' stands here twice");
+    }
+    if (std::ranges::find(level.known, key) != level.known.end()) continue;
     const std::string_view near = nearest_name(key, level.known);
     const std::string hint = near.empty() ? "" : "; did you mean '" + std::string(near) + "'?";
     throw Error(source_.where(entry.first, path) + ": unknown key '" + path + "'" + hint);

@@ -31,6 +31,9 @@ class Reader : public Fields {
               const Spec& spec) override;
   void numbers(std::string_view name, std::vector<double>& value, const Spec& spec) override;
   void texts(std::string_view name, std::vector<std::string>& value, const Spec& spec) override;
+  void assignments(std::string_view name, std::vector<Assignment>& value,
+                   const Spec& spec) override;
+  [[nodiscard]] std::string where(std::string_view name) const override;
 
   /// Throws Error when the mapping held a key that nobody asked for.
   void finish() { reject_unknown(stack_.front()); }
@@ -41,6 +44,7 @@ class Reader : public Fields {
   bool begin_list(std::string_view name, std::size_t& size) override;
   void begin_element(std::size_t index) override;
   void end_list() override;
+  bool begin_mapping(std::string_view name, std::vector<std::string>& names) override;
 
  private:
   struct Level {
@@ -56,6 +60,8 @@ class Reader : public Fields {
   void check_bounds(const YAML::Node& node, std::string_view name, double value,
                     const Spec& spec) const;
   void reject_unknown(const Level& level) const;
+  void flatten(const YAML::Node& node, const std::string& path, const std::string& prefix,
+               std::vector<Assignment>& value) const;
   template <class T>
   [[nodiscard]] T scalar(const YAML::Node& node, std::string_view name, const char* expected) const;
   void require_sequence(const YAML::Node& node, std::string_view name, const char* of) const;

@@ -57,6 +57,7 @@ class TextFields : public Fields {
   void texts(std::string_view name, std::vector<std::string>& value, const Spec& spec) override {
     emit(name, joined(value, in_quotes), spec);
   }
+  [[nodiscard]] std::string where(std::string_view) const override { return ""; }
 
  protected:
   virtual void emit(std::string_view name, const std::string& value, const Spec& spec) = 0;
@@ -66,6 +67,16 @@ class TextFields : public Fields {
 class YamlWriter : public TextFields {
  public:
   explicit YamlWriter(std::string& out) : out_(out) {}
+
+  void assignments(std::string_view name, std::vector<Assignment>& value, const Spec&) override {
+    if (value.empty()) return;
+    begin_section(name);
+    for (const Assignment& item : value) {
+      start_line();
+      out_ += item.key + ": " + item.value + "\n";
+    }
+    end_section();
+  }
 
  protected:
   void emit(std::string_view name, const std::string& value, const Spec&) override {
@@ -89,6 +100,10 @@ class YamlWriter : public TextFields {
     dash_ = true;
   }
   void end_list() override {}
+  bool begin_mapping(std::string_view name, std::vector<std::string>& names) override {
+    if (names.empty()) return false;
+    return begin_section(name);
+  }
 
  private:
   void start_line() {
@@ -105,6 +120,10 @@ class YamlWriter : public TextFields {
 class TableWriter : public TextFields {
  public:
   explicit TableWriter(std::string& out) : out_(out) {}
+
+  void assignments(std::string_view name, std::vector<Assignment>&, const Spec& spec) override {
+    emit(std::string(name) + ".*", "", spec);
+  }
 
  protected:
   void emit(std::string_view name, const std::string& value, const Spec& spec) override {
@@ -127,6 +146,11 @@ class TableWriter : public TextFields {
   }
   void begin_element(std::size_t) override { lengths_.push_back(prefix_.size()); }
   void end_list() override { end_section(); }
+  bool begin_mapping(std::string_view name, std::vector<std::string>& names) override {
+    // One element's fields stand for all of them.
+    names = {"NAME"};
+    return begin_section(name);
+  }
 
  private:
   [[nodiscard]] std::string bounds(const Spec& spec) const {

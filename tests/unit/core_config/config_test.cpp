@@ -107,7 +107,8 @@ TEST(ConfigTest, AnOverrideWinsAndIsNamedInItsErrors) {
   document.set("name=swan");
   EXPECT_DOUBLE_EQ(document.read<Robot>().spare.radius, 0.4);
   EXPECT_EQ(document.read<Robot>().name, "swan");
-  EXPECT_EQ(error_of("", "spare.radius=wide"), "--set: spare.radius: expected a number, got 'wide'");
+  EXPECT_EQ(error_of("", "spare.radius=wide"),
+            "--set: spare.radius: expected a number, got 'wide'");
   EXPECT_THAT(error_of("", "spare.width=1"), HasSubstr("--set: unknown key 'spare.width'"));
 }
 
@@ -127,6 +128,66 @@ TEST(ConfigTest, WhatIsWrittenReadsBackTheSame) {
   ASSERT_EQ(back.wheels.size(), 2U);
   EXPECT_DOUBLE_EQ(back.wheels[1].radius, 0.7);
   EXPECT_EQ(to_yaml(back), yaml);
+}
+
+struct Flock {
+  std::vector<Named<Wheel>> carts;
+  std::vector<Assignment> labels;
+  void describe(Fields& fields) {
+    fields.mapping("carts", carts);
+    fields.assignments("labels", labels, {});
+  }
+};
+
+TEST(ConfigTest, AMappingOfStructsKeepsOrderPlaceAndWhatALaterFileDoesNotSay) {
+  Flock flock;
+  Document::parse("carts:\n  red: {radius: 0.2}\n  blue:\n", "first.yaml").read(flock);
+  Document::parse("carts:\n  green: {radius: 0.4}\n  red: {}\n", "second.yaml").read(flock);
+  ASSERT_EQ(flock.carts.size(), 3U);
+  EXPECT_EQ(flock.carts[0].name, "red");
+  EXPECT_EQ(flock.carts[0].where, "second.yaml:3");
+  EXPECT_DOUBLE_EQ(flock.carts[0].value.radius, 0.2);
+  EXPECT_EQ(flock.carts[1].name, "blue");
+  EXPECT_DOUBLE_EQ(flock.carts[1].value.radius, 0.1);
+  EXPECT_EQ(flock.carts[2].name, "green");
+  const std::string yaml = to_yaml(flock);
+  const auto back = Document::parse(yaml, "written").read<Flock>();
+  ASSERT_EQ(back.carts.size(), 3U);
+  EXPECT_DOUBLE_EQ(back.carts[2].value.radius, 0.4);
+}
+
+TEST(ConfigTest, AnUnknownKeyInAMappingOfStructsIsFound) {
+  try {
+    (void)Document::parse("carts:\n  red:\n    raduis: 1\n", "a.yaml").read<Flock>();
+    FAIL() << "was accepted";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "a.yaml:3: unknown key 'carts.red.raduis'; did you mean 'radius'?");
+  }
+}
+
+TEST(ConfigTest, FreeKeysAreFlattenedWithTheirPlaceAndReadBackTheSame) {
+  const auto flock = Document::parse(R"(labels:
+  plain: 1.5
+  deep: {text: "1.5", list: [1, "two", {x: 3}]}
+)",
+                                     "labels.yaml")
+                         .read<Flock>();
+  ASSERT_EQ(flock.labels.size(), 3U);
+  EXPECT_EQ(flock.labels[0].key, "plain");
+  EXPECT_EQ(flock.labels[0].value, "1.5");
+  EXPECT_EQ(flock.labels[0].where, "labels.yaml:2");
+  EXPECT_EQ(flock.labels[1].key, "deep.text");
+  EXPECT_EQ(flock.labels[1].value, "\"1.5\"");
+  EXPECT_EQ(flock.labels[2].key, "deep.list");
+  EXPECT_EQ(flock.labels[2].value, "[1, \"two\", {x: 3}]");
+  EXPECT_EQ(flock.labels[2].where, "labels.yaml:3");
+  EXPECT_EQ(Document::parse(to_yaml(flock), "written").read<Flock>().labels[2].value,
+            flock.labels[2].value);
+}
+
+TEST(ConfigTest, AKeyThatStandsTwiceIsAnError) {
+  EXPECT_EQ(error_of("name: a\narmed: true\nname: b\n"),
+            "robot.yaml:3: key 'name' stands here twice");
 }
 
 TEST(ConfigTest, TheTableListsDefaultUnitAndBounds) {
