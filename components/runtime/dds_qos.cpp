@@ -1,0 +1,74 @@
+#include "runtime/dds_qos.hpp"
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+
+namespace coop::runtime {
+
+namespace dds = eprosima::fastdds::dds;
+using eprosima::fastrtps::Duration_t;
+
+namespace {
+
+constexpr std::uint32_t kSocketBuffer = 4U << 20U;
+constexpr int kStreamDepth = 5;
+constexpr int kEventDepth = 2000;
+
+/// What writers and readers of an intent share.
+template <class EndpointQos>
+void apply_common(Qos intent, const DdsOptions& options, EndpointQos& qos) {
+  const bool is_stream = intent == Qos::kSensorStream;
+  const bool is_latched = intent == Qos::kStateLatched || intent == Qos::kHeartbeat;
+  const bool keeps_all = intent == Qos::kEvent || (is_stream && options.reliable_streams);
+  qos.reliability().kind = is_stream && !options.reliable_streams ? dds::BEST_EFFORT_RELIABILITY_QOS
+                                                                  : dds::RELIABLE_RELIABILITY_QOS;
+  qos.durability().kind =
+      is_latched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  qos.history().kind = keeps_all ? dds::KEEP_ALL_HISTORY_QOS : dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = is_stream ? kStreamDepth : 1;
+  qos.resource_limits().max_samples = keeps_all ? kEventDepth : 500;
+  qos.resource_limits().max_instances = 100;
+  qos.resource_limits().max_samples_per_instance = keeps_all ? kEventDepth : kStreamDepth;
+  qos.resource_limits().allocated_samples = 0;
+  qos.data_sharing().off();
+  if (intent == Qos::kHeartbeat) {
+    // AUTOMATIC never fires while another automatic writer lives in the domain (Fast DDS 2.9).
+    qos.liveliness().kind = dds::MANUAL_BY_TOPIC_LIVELINESS_QOS;
+    qos.liveliness().lease_duration = Duration_t(1, 0);
+  }
+}
+
+}  // namespace
+
+dds::DomainParticipantQos participant_qos(dds::DomainParticipantQos base,
+                                          const DdsOptions& options) {
+  base.name(options.participant_name);
+  base.transport().use_builtin_transports = false;
+  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  udp->sendBufferSize = kSocketBuffer;
+  udp->receiveBufferSize = kSocketBuffer;
+  base.transport().user_transports.push_back(udp);
+  auto& discovery = base.wire_protocol().builtin.discovery_config;
+  discovery.leaseDuration = Duration_t(2, 0);
+  discovery.leaseDuration_announcementperiod = Duration_t(0, 660'000'000);
+  return base;
+}
+
+void apply_intent(Qos intent, const DdsOptions& options, dds::DataWriterQos& qos) {
+  apply_common(intent, options, qos);
+  // Streams that must be complete slow their writer down; a stalled reader is dropped with its
+  // participant's lease.
+  qos.reliability().max_blocking_time =
+      intent == Qos::kSensorStream ? Duration_t(10, 0) : Duration_t(0, 200'000'000);
+  // Only offered, never requested: a ROS 2 publisher without a deadline may drive the robot too.
+  if (intent == Qos::kCommand) qos.deadline().period = Duration_t(0, 200'000'000);
+  if (intent == Qos::kHeartbeat) {
+    qos.liveliness().announcement_period = Duration_t(0, 500'000'000);
+  }
+  qos.reliable_writer_qos().times.heartbeatPeriod = Duration_t(0, 100'000'000);
+}
+
+void apply_intent(Qos intent, const DdsOptions& options, dds::DataReaderQos& qos) {
+  apply_common(intent, options, qos);
+}
+
+}  // namespace coop::runtime

@@ -1,0 +1,98 @@
+#include "runtime/health_reporter.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <coop_idl/interface_version.hpp>
+#include <fstream>
+#include <sstream>
+
+#include "coop_msgs/msg/ComponentStatus.h"
+
+namespace coop::runtime {
+namespace {
+
+double cpu_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds_of = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+}
+
+std::uint64_t resident_bytes() {
+  std::ifstream in("/proc/self/statm");
+  std::uint64_t pages = 0;
+  std::uint64_t resident = 0;
+  in >> pages >> resident;
+  return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
+std::string_view to_string(Health health) {
+  switch (health) {
+    case Health::kStarting:
+      return "starting";
+    case Health::kReady:
+      return "ready";
+    case Health::kDegraded:
+      return "degraded";
+    case Health::kStopping:
+      return "stopping";
+    case Health::kFinished:
+      return "finished";
+  }
+  return "";
+}
+
+std::uint64_t config_hash(const Options& options) {
+  std::uint64_t hash = 0xCBF29CE484222325ULL;
+  const auto mix = [&hash](std::string_view text) {
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
+    hash = (hash ^ 0xFFU) * 0x100000001B3ULL;
+  };
+  if (!options.config.empty()) {
+    std::ifstream in(options.config, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    mix(text.str());
+  }
+  for (const std::string& setting : options.settings) mix(setting);
+  return hash;
+}
+
+HealthReporter::HealthReporter(const Options& options, std::shared_ptr<Writer> writer)
+    : name_(options.name), config_hash_(config_hash(options)), writer_(std::move(writer)) {
+  char host[256] = {};
+  ::gethostname(host, sizeof host - 1);
+  host_ = host;
+}
+
+void HealthReporter::report(Health health, const std::string& detail) {
+  if (health == health_ && detail == detail_) return;
+  health_ = health;
+  detail_ = detail;
+  beat();
+}
+
+void HealthReporter::beat() {
+  coop_msgs::msg::ComponentStatus status;
+  status.name(name_);
+  // The heartbeat is about the process: system time, also in simulations.
+  const Time now = SystemClock().now();
+  status.stamp().sec(static_cast<std::int32_t>(to_nanoseconds(now) / 1'000'000'000));
+  status.stamp().nanosec(static_cast<std::uint32_t>(to_nanoseconds(now) % 1'000'000'000));
+  status.state(static_cast<std::uint8_t>(health_));
+  status.detail(detail_);
+  status.pid(static_cast<std::uint32_t>(::getpid()));
+  status.config_hash(config_hash_);
+  status.interface_version(static_cast<std::uint32_t>(coop_idl::kInterfaceVersion));
+  status.cpu_seconds(cpu_seconds());
+  status.rss_bytes(resident_bytes());
+  status.host(host_);
+  writer_->write(&status);
+}
+
+}  // namespace coop::runtime

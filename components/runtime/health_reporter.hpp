@@ -1,0 +1,33 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "runtime/node.hpp"
+
+namespace coop::runtime {
+
+/// The heartbeat: component_status twice a second of wall time and at every change, with pid,
+/// processor time, memory, hash of the configuration and version of the interfaces.
+class HealthReporter {
+ public:
+  HealthReporter(const Options& options, std::shared_ptr<Writer> writer);
+
+  void report(Health health, const std::string& detail);
+  void beat();
+  [[nodiscard]] Health health() const { return health_; }
+  [[nodiscard]] const std::string& detail() const { return detail_; }
+
+ private:
+  std::string name_;
+  std::string host_;
+  std::uint64_t config_hash_ = 0;
+  std::shared_ptr<Writer> writer_;
+  Health health_ = Health::kStarting;
+  std::string detail_;
+};
+
+/// FNV-1a over the configuration file's text and the settings; tells whether two processes run with
+/// the same.
+[[nodiscard]] std::uint64_t config_hash(const Options& options);
+
+}  // namespace coop::runtime

@@ -1,0 +1,31 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace eprosima::fastdds::dds {
+class TopicDataType;
+}
+
+namespace coop::runtime {
+
+/// What the transports must know of an IDL type. One static instance a type; message_type<M>()
+/// names it.
+class MessageType {
+ public:
+  virtual ~MessageType() = default;
+  /// On the wire, e.g. sensor_msgs::msg::dds_::LaserScan_
+  [[nodiscard]] virtual const std::string& name() const = 0;
+  [[nodiscard]] virtual std::shared_ptr<void> create() const = 0;
+  [[nodiscard]] virtual std::shared_ptr<const void> clone(const void* message) const = 0;
+  /// Text that tells the instances of a keyed type apart, empty for types without key.
+  [[nodiscard]] virtual std::string key_of(const void* message) const = 0;
+  /// A new Fast DDS type support, owned by the caller.
+  [[nodiscard]] virtual eprosima::fastdds::dds::TopicDataType* new_dds_type() const = 0;
+};
+
+/// Defined for the message types listed in idl/CMakeLists.txt (COOP_IDL_MESSAGES).
+template <class Message>
+[[nodiscard]] const MessageType& message_type();
+
+}  // namespace coop::runtime

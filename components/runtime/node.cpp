@@ -1,0 +1,188 @@
+#include "runtime/node.hpp"
+
+#include <vector>
+
+#include "coop_msgs/msg/ComponentStatus.h"
+#include "runtime/health_reporter.hpp"
+#include "runtime/transform_topics.hpp"
+
+namespace coop::runtime {
+namespace {
+
+/// Takes from a reader and calls back.
+class Subscription : public InputSource {
+ public:
+  Subscription(Transport& transport, Executor& executor, const std::string& topic,
+               const MessageType& type, Qos qos, std::function<void(const Sample&)> callback)
+      : callback_(std::move(callback)),
+        reader_(transport.create_reader(topic, type, qos, [&executor] { executor.wake(); })) {}
+
+  bool handle_one() override {
+    Sample sample;
+    if (!reader_->take(sample)) return false;
+    callback_(sample);
+    return true;
+  }
+
+ private:
+  std::function<void(const Sample&)> callback_;
+  std::unique_ptr<Reader> reader_;
+};
+
+}  // namespace
+
+struct Node::Impl {
+  Options options;
+  Transport& transport;
+  const Clock& clock;
+  Executor& executor;
+  Logger log;
+  std::unique_ptr<HealthReporter> health;
+  std::vector<std::unique_ptr<Subscription>> subscriptions;
+  std::unique_ptr<TransformListener> listener;
+  std::unique_ptr<TransformPublisher> transform_publisher;
+  std::vector<std::function<void()>> stop_callbacks;
+  std::vector<std::function<void()>> jump_callbacks;
+  bool wants_to_end = false;
+  int exit_code = 0;
+
+  Impl(const Options& wanted, Transport& carrier, const Clock& time, Executor& runner)
+      : options(wanted),
+        transport(carrier),
+        clock(time),
+        executor(runner),
+        log(wanted.name, time, wanted.log_dir, wanted.verbose ? Level::kDebug : Level::kInfo) {}
+
+  TransformPublisher& broadcaster(Node& node) {
+    if (!transform_publisher) transform_publisher = std::make_unique<TransformPublisher>(node);
+    return *transform_publisher;
+  }
+};
+
+Node::Node(const Options& options, Transport& transport, const Clock& clock, Executor& executor)
+    : impl_(std::make_unique<Impl>(options, transport, clock, executor)) {
+  impl_->health = std::make_unique<HealthReporter>(
+      impl_->options,
+      create_writer("component_status", message_type<coop_msgs::msg::ComponentStatus>(),
+                    Qos::kHeartbeat));
+  executor.add_wall_timer(std::chrono::milliseconds(500), [this] { impl_->health->beat(); });
+}
+
+Node::~Node() {
+  for (const auto& subscription : impl_->subscriptions) {
+    impl_->executor.remove_source(*subscription);
+  }
+}
+
+std::shared_ptr<Writer> Node::create_writer(const std::string& topic, const MessageType& type,
+                                            Qos qos) {
+  return impl_->transport.create_writer(topic, type, qos);
+}
+
+void Node::add_subscription(const std::string& topic, const MessageType& type, Qos qos,
+                            std::function<void(const Sample&)> callback) {
+  impl_->subscriptions.push_back(std::make_unique<Subscription>(
+      impl_->transport, impl_->executor, topic, type, qos, std::move(callback)));
+  impl_->executor.add_source(*impl_->subscriptions.back());
+}
+
+void Node::every(Duration period, std::function<void()> callback) {
+  impl_->executor.add_timer(period, std::move(callback));
+}
+
+Time Node::now() const {
+  return impl_->clock.now();
+}
+
+RandomStream Node::random(std::string_view purpose) const {
+  return {impl_->options.seed, impl_->options.name + "/" + std::string(purpose)};
+}
+
+Logger& Node::log() {
+  return impl_->log;
+}
+const Options& Node::options() const {
+  return impl_->options;
+}
+
+const TransformBuffer& Node::transforms() {
+  if (!impl_->listener) impl_->listener = std::make_unique<TransformListener>(*this);
+  return impl_->listener->buffer();
+}
+
+void Node::publish_transform(std::string_view parent, std::string_view child, Time stamp,
+                             const Pose3& child_in_parent) {
+  impl_->broadcaster(*this).publish(parent, child, stamp, child_in_parent);
+}
+
+void Node::publish_transform(std::string_view parent, std::string_view child, Time stamp,
+                             const Pose2& child_in_parent) {
+  publish_transform(parent, child, stamp, to_pose3(child_in_parent));
+}
+
+void Node::publish_static_transform(std::string_view parent, std::string_view child,
+                                    const Pose3& child_in_parent) {
+  impl_->broadcaster(*this).publish_static(parent, child, now(), child_in_parent);
+}
+
+void Node::set_starting() {
+  impl_->health->beat();
+}
+void Node::set_ready() {
+  impl_->health->report(Health::kReady, "");
+}
+
+void Node::set_degraded(const std::string& reason) {
+  const bool is_new = health() != Health::kDegraded || impl_->health->detail() != reason;
+  if (is_new) impl_->log.warning("degraded: {}", reason);
+  impl_->health->report(Health::kDegraded, reason);
+}
+
+Health Node::health() const {
+  return impl_->health->health();
+}
+
+void Node::finish(const std::string& reason) {
+  if (impl_->wants_to_end) return;
+  impl_->log.info("finished: {}", reason);
+  impl_->health->report(Health::kFinished, reason);
+  impl_->wants_to_end = true;
+}
+
+void Node::fail(const std::string& reason) {
+  if (impl_->wants_to_end) return;
+  impl_->log.error("{}", reason);
+  impl_->health->report(Health::kStopping, reason);
+  impl_->exit_code = 1;
+  impl_->wants_to_end = true;
+}
+
+void Node::on_stop(std::function<void()> callback) {
+  impl_->stop_callbacks.push_back(std::move(callback));
+}
+
+void Node::on_clock_jump(std::function<void()> callback) {
+  impl_->jump_callbacks.push_back(std::move(callback));
+}
+
+void Node::handle_clock_jump() {
+  impl_->executor.on_clock_jump();
+  if (impl_->listener) impl_->listener->clear();
+  for (const auto& callback : impl_->jump_callbacks) callback();
+}
+
+void Node::stop() {
+  if (health() != Health::kFinished) impl_->health->report(Health::kStopping, "");
+  impl_->executor.run_inputs();
+  for (const auto& callback : impl_->stop_callbacks) callback();
+  impl_->stop_callbacks.clear();
+}
+
+bool Node::wants_to_end() const {
+  return impl_->wants_to_end;
+}
+int Node::exit_code() const {
+  return impl_->exit_code;
+}
+
+}  // namespace coop::runtime

@@ -1,0 +1,82 @@
+#include "runtime/run.hpp"
+
+#include "conversions/time.hpp"
+#include "rosgraph_msgs/msg/Clock.h"
+#include "runtime/dds_transport.hpp"
+#include "runtime/stop_signal.hpp"
+
+namespace coop::runtime {
+namespace {
+
+config::Document load_document(const Options& options) {
+  config::Document document =
+      options.config.empty() ? config::Document() : config::Document::load(options.config);
+  for (const std::string& setting : options.settings) document.set(setting);
+  return document;
+}
+
+/// Follows /clock. Steps of the clock wake the executor by themselves (they are inputs).
+class ClockFollower {
+ public:
+  ClockFollower(Node& node, ManualClock& clock) {
+    node.subscribe<rosgraph_msgs::msg::Clock>(
+        "clock", Qos::kEvent, [&node, &clock](const rosgraph_msgs::msg::Clock& message) {
+          const Time time = conversions::from_msg(message.clock());
+          const Time before = clock.now();
+          clock.set(time);
+          if (before == Time{} || time < before) node.handle_clock_jump();
+        });
+  }
+};
+
+int run_component(const Options& options, const Program& program,
+                  const config::Document& document) {
+  DdsTransport transport({.domain = options.domain,
+                          .participant_name = options.name,
+                          .partition = options.robot,
+                          .reliable_streams = options.reliable_streams});
+  const SystemClock system_clock;
+  ManualClock sim_clock;
+  const Clock& clock = options.sim_time ? static_cast<const Clock&>(sim_clock)
+                                        : static_cast<const Clock&>(system_clock);
+  Executor executor(clock);
+  const StopSignal stop(executor);
+  Node node(options, transport, clock, executor);
+  node.set_starting();
+  std::unique_ptr<ClockFollower> follower;
+  if (options.sim_time) follower = std::make_unique<ClockFollower>(node, sim_clock);
+  const std::shared_ptr<void> component = program.start(node, document);
+  if (node.health() == Health::kStarting) node.set_ready();
+  while (!StopSignal::requested() && !node.wants_to_end()) {
+    executor.wait_and_run(std::chrono::milliseconds(500));
+  }
+  node.stop();
+  return node.exit_code();
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv, const Program& program) {
+  int exit_code = 0;
+  const auto options = parse_options(argc, argv, program.name, program.description, exit_code);
+  if (!options) return exit_code;
+  try {
+    if (options->mode == Options::Mode::kPrintTable) {
+      std::cout << program.print_table();
+      return 0;
+    }
+    const config::Document document = load_document(*options);
+    program.check(document);
+    if (options->mode == Options::Mode::kCheck) return 0;
+    if (options->mode == Options::Mode::kPrintConfig) {
+      std::cout << program.print_config(document);
+      return 0;
+    }
+    return run_component(*options, program, document);
+  } catch (const std::exception& problem) {
+    std::cerr << options->name << ": " << problem.what() << '\n';
+    return 1;
+  }
+}
+
+}  // namespace coop::runtime
