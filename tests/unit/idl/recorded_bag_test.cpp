@@ -1,51 +1,26 @@
 // Samples that real ROS 2 nodes wrote: read with our types and written again, they give the same
 // bytes.
+#include "unit/idl/recorded_bag.hpp"
+
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 
 #include "nav_msgs/msg/OdometryPubSubTypes.h"
 #include "sensor_msgs/msg/LaserScanPubSubTypes.h"
 #include "std_msgs/msg/StringPubSubTypes.h"
-#include "support/shared_data.hpp"
 #include "tf2_msgs/msg/TFMessagePubSubTypes.h"
 #include "unit/idl/topic_type.hpp"
 
 namespace coop::test {
 namespace {
 
-std::vector<Bytes> samples_of(const std::filesystem::path& bag, const std::string& type) {
-  sqlite3* database = nullptr;
-  const std::string address = "file:" + bag.string() + "?immutable=1";
-  EXPECT_EQ(
-      sqlite3_open_v2(address.c_str(), &database, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr),
-      SQLITE_OK);
-  sqlite3_stmt* query = nullptr;
-  EXPECT_EQ(sqlite3_prepare_v2(database,
-                               "select data from messages join topics on topic_id = topics.id "
-                               "where type = ? order by messages.id",
-                               -1, &query, nullptr),
-            SQLITE_OK);
-  sqlite3_bind_text(query, 1, type.c_str(), -1, SQLITE_TRANSIENT);
-  std::vector<Bytes> samples;
-  while (sqlite3_step(query) == SQLITE_ROW) {
-    const auto* data = static_cast<const std::uint8_t*>(sqlite3_column_blob(query, 0));
-    samples.emplace_back(data, data + sqlite3_column_bytes(query, 0));
-  }
-  sqlite3_finalize(query);
-  sqlite3_close(database);
-  return samples;
-}
-
 class RecordedBag : public testing::Test {
  protected:
   void SetUp() override {
-    const auto file = shared_data("ros2/bags/macfirst_floor_take_2/macfirst_floor_take_2_0.db3");
+    const auto file = recorded_bag();
     if (!file) GTEST_SKIP() << "not run: the recorded bag is not at hand";
     bag_ = *file;
   }
 
-  /// Padding bytes of the recording may hold anything, so the objects are compared too when bytes
-  /// differ.
   void expect_same_after_round_trip(TopicDataType& type, const std::string& name,
                                     std::size_t count) {
     const auto samples = samples_of(bag_, name);
