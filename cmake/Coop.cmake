@@ -5,6 +5,8 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+# What a library links its users must see too, wherever they stand.
+set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL TRUE)
 
 add_library(coop_options INTERFACE)
 target_include_directories(coop_options INTERFACE "${PROJECT_SOURCE_DIR}/components")
