@@ -17,13 +17,12 @@ struct Spec {
   double max = std::numeric_limits<double>::infinity();
 };
 
-/// One value of a mapping whose keys are free: dotted key, value as one line of YAML, and the place
-/// (`file:line` or
-/// `--set`) for messages.
+/// One value of a mapping whose keys are free.
 struct Assignment {
-  std::string key;
-  std::string value;
-  std::string where;
+  std::string key;    ///< dotted
+  std::string value;  ///< as one line of YAML
+  std::string text;   ///< the same without the quotes of a text
+  std::string where;  ///< `file:line` or `--set`, for messages
 };
 
 /// A struct that stands under a name of the user's choice, and the place of that name.
@@ -38,8 +37,8 @@ struct Named {
 /// initialisers and
 ///
 ///   void describe(config::Fields& fields) {
-///     fields.number("max_vel_x", max_vel_x, {.unit = "m/s", .help = "fastest forward", .min = 0,
-///     .max = 2}); fields.section("footprint", footprint);
+///     fields.number("max_vel_x", max_vel_x, {.unit = "m/s", .min = 0, .max = 2});
+///     fields.section("footprint", footprint);
 ///   }
 ///   void validate() const;   // optional: throws config::Error for what bounds cannot say
 ///

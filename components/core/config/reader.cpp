@@ -186,7 +186,9 @@ void Reader::flatten(const YAML::Node& node, const std::string& path, const std:
       flatten(entry.second, path + "." + key, prefix + key + ".", value);
       continue;
     }
-    Assignment read{prefix + key, in_one_line(entry.second),
+    const std::string in_yaml = in_one_line(entry.second);
+    Assignment read{prefix + key, in_yaml,
+                    entry.second.IsScalar() ? entry.second.Scalar() : in_yaml,
                     source_.where(entry.first, path + "." + key)};
     const auto same = std::ranges::find(value, read.key, &Assignment::key);
     if (same == value.end()) {

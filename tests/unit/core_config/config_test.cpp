@@ -178,6 +178,7 @@ TEST(ConfigTest, FreeKeysAreFlattenedWithTheirPlaceAndReadBackTheSame) {
   EXPECT_EQ(flock.labels[0].where, "labels.yaml:2");
   EXPECT_EQ(flock.labels[1].key, "deep.text");
   EXPECT_EQ(flock.labels[1].value, "\"1.5\"");
+  EXPECT_EQ(flock.labels[1].text, "1.5");
   EXPECT_EQ(flock.labels[2].key, "deep.list");
   EXPECT_EQ(flock.labels[2].value, "[1, \"two\", {x: 3}]");
   EXPECT_EQ(flock.labels[2].where, "labels.yaml:3");
