@@ -13,10 +13,6 @@ double steering_of_curvature(const AckermannGeometry& base, double curvature) {
   return std::atan(curvature * base.wheelbase);
 }
 
-double min_turning_radius(const AckermannGeometry& base) {
-  return base.wheelbase / std::tan(base.max_steering);
-}
-
 Twist2 twist_of(const AckermannGeometry& base, double speed, double steering) {
   return {speed, speed * curvature_of(base, steering)};
 }
@@ -24,8 +20,8 @@ Twist2 twist_of(const AckermannGeometry& base, double speed, double steering) {
 double steering_of(const AckermannGeometry& base, const Twist2& twist, double at_rest) {
   constexpr double kStandstill = 1e-6;
   if (std::abs(twist.v) < kStandstill) return at_rest;
-  return std::clamp(steering_of_curvature(base, twist.omega / twist.v), -base.max_steering,
-                    base.max_steering);
+  return std::clamp(steering_of_curvature(base, twist.omega / twist.v), -base.max_steering_angle,
+                    base.max_steering_angle);
 }
 
 FrontWheelAngles front_wheel_angles(const AckermannGeometry& base, double steering) {
@@ -70,8 +66,6 @@ void DriveLimits::describe(config::Fields& fields) {
                  .help = "when commands stop coming or an emergency stop is engaged",
                  .min = 0.01,
                  .max = 20});
-  fields.number("max_steering_rate", max_steering_rate,
-                {.unit = "rad/s", .help = "turn of the steered wheels", .min = 0.01, .max = 10});
 }
 
 }  // namespace coop::vehicle

@@ -1,18 +1,14 @@
 #pragma once
 #include "core/config/fields.hpp"
 #include "core/pose.hpp"
+#include "core/robot/robot_model.hpp"
 
 /// Car-like kinematics: two rear wheels on a fixed axle with base_link in its middle, two front
 /// wheels that steer. "Steering angle" is that of the virtual middle front wheel of the bicycle
 /// model, counter-clockwise positive.
 namespace coop::vehicle {
 
-/// From the robot's description; nobody repeats its numbers.
-struct AckermannGeometry {
-  double wheelbase = 0.0;     ///< rear axle to front axle, m
-  double track = 0.0;         ///< between the middles of a pair of wheels, m
-  double max_steering = 0.0;  ///< largest steering angle to either side, rad
-};
+using robot::AckermannGeometry;
 
 /// Speeds at which the wheels' contact points move along their rolling directions, m/s.
 struct WheelSpeeds {
@@ -31,8 +27,6 @@ struct FrontWheelAngles {
 /// Turn a metre travelled, 1/m, positive to the left.
 [[nodiscard]] double curvature_of(const AckermannGeometry& base, double steering);
 [[nodiscard]] double steering_of_curvature(const AckermannGeometry& base, double curvature);
-/// Radius of the tightest circle of base_link, m.
-[[nodiscard]] double min_turning_radius(const AckermannGeometry& base);
 
 [[nodiscard]] Twist2 twist_of(const AckermannGeometry& base, double speed, double steering);
 /// Steering angle for the twist, within the limits; `at_rest` where the twist stands still, for
@@ -48,7 +42,7 @@ struct FrontWheelAngles {
 /// circular arc.
 [[nodiscard]] Pose2 advance_along_arc(const Pose2& start, double distance, double turn);
 
-/// What the drive can do. All positive.
+/// What the drive may do beside what its geometry says. All positive.
 struct DriveLimits {
   double max_speed_forward = 0.6;  ///< m/s
   double max_speed_reverse = 0.3;  ///< m/s
@@ -56,7 +50,6 @@ struct DriveLimits {
   double max_deceleration = 0.8;   ///< m/s^2, towards standstill: more than planners count on
   double emergency_deceleration =
       1.5;  ///< m/s^2, when stopping for want of commands or by emergency stop
-  double max_steering_rate = 0.8;  ///< rad/s
 
   void describe(config::Fields& fields);
 };

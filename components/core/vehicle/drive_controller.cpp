@@ -41,7 +41,7 @@ DriveSetpoint DriveController::step(Time now, Duration dt) {
                                   : limits_.emergency_deceleration;
   setpoint_.speed =
       ramp_speed(setpoint_.speed, speed, limits_.max_acceleration, deceleration, span);
-  setpoint_.steering = approach(setpoint_.steering, steering, limits_.max_steering_rate * span);
+  setpoint_.steering = approach(setpoint_.steering, steering, base_.max_steering_rate * span);
   setpoint_.cause = decision.cause;
   return setpoint_;
 }

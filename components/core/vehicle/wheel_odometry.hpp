@@ -33,6 +33,12 @@ class OdometryIntegrator {
   /// Of x, y, yaw in odom.
   [[nodiscard]] const Eigen::Matrix3d& covariance() const { return covariance_; }
 
+  /// Hands the state to something that stores or restores it.
+  template <class Archive>
+  void persist(Archive& archive) {
+    archive(odometry_, covariance_);
+  }
+
  private:
   OdometryNoise noise_;
   Odometry odometry_;
@@ -67,6 +73,11 @@ class WheelOdometry {
 
   [[nodiscard]] const Odometry& odometry() const { return integrator_.odometry(); }
   [[nodiscard]] const Eigen::Matrix3d& covariance() const { return integrator_.covariance(); }
+
+  template <class Archive>
+  void persist(Archive& archive) {
+    archive(integrator_, last_, has_last_);
+  }
 
  private:
   WheelOdometryConfig config_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/world/state.hpp"
+
 namespace coop::world {
 namespace {
 
@@ -39,10 +41,10 @@ void clip(const Axis& axis, int cells, double& enter, double& leave) {
 
 }  // namespace
 
-RayCaster::RayCaster(const OccupancyGrid& grid, std::int8_t occupied_from)
+RayCaster::RayCaster(const OccupancyGrid& grid)
     : geometry_(grid.geometry), blocked_(grid.cells.size()) {
   std::transform(grid.cells.begin(), grid.cells.end(), blocked_.begin(),
-                 [&](std::int8_t value) { return value >= occupied_from ? 1 : 0; });
+                 [&](std::int8_t value) { return is_occupied(value) ? 1 : 0; });
 }
 
 std::optional<RayHit> RayCaster::cast(const Eigen::Vector2d& origin,

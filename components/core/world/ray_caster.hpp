@@ -19,8 +19,7 @@ struct RayHit {
 /// 1987). Unknown cells and everything beyond the border let the ray pass.
 class RayCaster {
  public:
-  /// Cells of at least `occupied_from` percent stop a ray.
-  explicit RayCaster(const OccupancyGrid& grid, std::int8_t occupied_from = 50);
+  explicit RayCaster(const OccupancyGrid& grid);
 
   /// First occupied cell within `max_range` along the unit vector `direction`; range 0 where the
   /// origin lies in one.

@@ -11,7 +11,7 @@ namespace coop::world {
 /// camera see them as blocks.
 inline constexpr double kObstacleHeight = 0.60;
 /// Height of an animal, a vertical cylinder, m.
-inline constexpr double kAnimalHeight = 0.32;
+inline constexpr double kAnimalHeight = 0.40;
 
 /// A duck egg is an ellipsoid of revolution that lies on its side: its long axis is horizontal.
 /// Half axes in metres; mean of Pekin duck eggs, 62 mm x 45 mm.

@@ -13,6 +13,11 @@
 /// carry these structs field by field.
 namespace coop::world {
 
+/// Cells of at least 50 percent are solid; unknown ones lie outside the house and stop nothing.
+[[nodiscard]] constexpr bool is_occupied(std::int8_t occupancy) {
+  return occupancy >= 50;
+}
+
 /// Numbers as in coop_msgs/SimEgg.
 enum class EggState : std::uint8_t {
   kOnFloor = 0,

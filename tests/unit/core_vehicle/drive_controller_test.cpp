@@ -5,7 +5,11 @@
 namespace coop::vehicle {
 namespace {
 
-constexpr AckermannGeometry kBase{.wheelbase = 0.5, .track = 0.4, .max_steering = 0.6};
+const AckermannGeometry kBase{.wheelbase = 0.5,
+                              .track = 0.4,
+                              .wheel_radius = 0.1,
+                              .max_steering_angle = 0.6,
+                              .max_steering_rate = 0.8};
 constexpr Duration kTick = std::chrono::milliseconds(10);
 
 /// Drives a controller with one command repeated at every tick.

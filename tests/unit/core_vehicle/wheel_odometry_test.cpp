@@ -9,7 +9,11 @@ namespace coop::vehicle {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr AckermannGeometry kBase{.wheelbase = 0.5, .track = 0.4, .max_steering = 0.6};
+const AckermannGeometry kBase{.wheelbase = 0.5,
+                              .track = 0.4,
+                              .wheel_radius = 0.1,
+                              .max_steering_angle = 0.6,
+                              .max_steering_rate = 0.8};
 
 WheelReading reading(double s, std::int64_t left, std::int64_t right, double steering) {
   return {time_from_seconds(s), left, right, steering};

@@ -1,0 +1,155 @@
+#include "simulator/simulation.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "simulator/archive.hpp"
+#include "simulator/contact.hpp"
+
+namespace coop::simulator {
+namespace {
+
+/// Tells worlds apart, so that nobody resumes in another one.
+class Fingerprint {
+ public:
+  void add(const void* data, std::size_t bytes) {
+    const auto* byte = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < bytes; ++i) hash_ = (hash_ ^ byte[i]) * 0x100000001B3ULL;  // FNV-1a
+  }
+  void add(const std::string& text) { add(text.data(), text.size() + 1); }
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  void add(Number value) { add(&value, sizeof value); }
+  [[nodiscard]] std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xCBF29CE484222325ULL;
+};
+
+std::uint64_t fingerprint_of(const world::World& world, const std::vector<world::Animal>& animals) {
+  Fingerprint print;
+  print.add(world.seed);
+  print.add(world.grid.geometry.width);
+  print.add(world.grid.geometry.resolution);
+  print.add(world.grid.cells.data(), world.grid.cells.size());
+  for (const double value : {world.robot_start.x, world.robot_start.y, world.robot_start.yaw}) {
+    print.add(value);
+  }
+  for (const world::Egg& egg : world.eggs) {
+    print.add(egg.id);
+    print.add(egg.position.x());
+    print.add(egg.position.y());
+  }
+  for (const world::Animal& animal : animals) {
+    print.add(animal.id);
+    print.add(animal.radius);
+    print.add(animal.position.x());
+    print.add(animal.position.y());
+  }
+  return print.value();
+}
+
+}  // namespace
+
+void SimulationConfig::describe(config::Fields& fields) {
+  fields.section("drive", drive);
+  fields.section("vehicle", vehicle);
+  fields.section("wheel_sensor", wheel_sensor);
+  fields.section("imu", imu);
+  fields.section("eggs", eggs);
+  fields.section("animals", animals);
+}
+
+Simulation::Simulation(const SimulationConfig& config, const RobotShape& robot,
+                       const world::World& world, const std::vector<AnimalDescription>& animals)
+    : grid_(world.grid),
+      robot_(robot),
+      drive_(config.drive, robot.base),
+      vehicle_(config.vehicle, robot.base, world.robot_start, world.seed),
+      wheels_(config.wheel_sensor, robot.base, world.seed),
+      imu_(config.imu, robot.imu_in_base, world.seed),
+      eggs_(config.eggs, robot, world.eggs),
+      flock_(config.animals, animals, world.seed) {
+  fingerprint_ = fingerprint_of(world, flock_.animals());
+  wheels_.read(vehicle_.state().steering, now());
+  imu_reading_ = imu_.read({}, {}, to_seconds(kTick), now());
+  place(robot_.footprint, vehicle_.state().robot_in_world, outline_);
+  update_truth();
+}
+
+bool Simulation::touches_something() const {
+  if (outline_hits_grid(outline_, grid_)) return true;
+  const auto& animals = flock_.animals();
+  return std::any_of(animals.begin(), animals.end(), [&](const world::Animal& animal) {
+    return distance_to_outline(outline_, animal.position) < animal.radius;
+  });
+}
+
+void Simulation::drive() {
+  const double dt = to_seconds(kTick);
+  const vehicle::DriveSetpoint setpoint = drive_.step(now(), kTick);
+  const Twist2 before = vehicle_.state().velocity;
+  const VehicleMotion motion = vehicle_.roll(setpoint, dt);
+  place(robot_.footprint, motion.robot_in_world, outline_);
+  if (motion.distance != 0.0 && touches_something()) {
+    if (!in_collision_) ++collision_count_;
+    in_collision_ = true;
+    vehicle_.halt();
+    drive_.reset({0.0, setpoint.steering, setpoint.cause});
+    place(robot_.footprint, vehicle_.state().robot_in_world, outline_);
+  } else {
+    if (motion.distance != 0.0) in_collision_ = false;
+    vehicle_.move(motion, dt);
+    wheels_.roll(motion.rolled_left, motion.rolled_right);
+  }
+  imu_reading_ = imu_.read(before, vehicle_.state().velocity, dt, now());
+}
+
+void Simulation::step() {
+  ++tick_;
+  drive();
+  if (has_new_reading()) wheels_.read(vehicle_.state().steering, now());
+  flock_.step(to_seconds(kTick), grid_, outline_);
+  eggs_.step(vehicle_.state().robot_in_world, vehicle_.state().steering, gripper_);
+  update_truth();
+}
+
+void Simulation::update_truth() {
+  truth_.stamp = now();
+  truth_.robot_in_world = vehicle_.state().robot_in_world;
+  truth_.velocity = vehicle_.state().velocity;
+  truth_.steering_angle = vehicle_.state().steering;
+  truth_.in_collision = in_collision_;
+  truth_.collision_count = collision_count_;
+  truth_.eggs = eggs_.eggs();
+  truth_.animals = flock_.animals();
+}
+
+template <class Archive>
+void Simulation::persist(Archive& archive) {
+  vehicle::DriveSetpoint setpoint = drive_.setpoint();
+  archive(tick_, setpoint.speed, setpoint.steering, setpoint.cause, vehicle_, wheels_, imu_, eggs_,
+          flock_, gripper_.suction, gripper_.tip_in_base, in_collision_, collision_count_);
+  drive_.reset(setpoint);
+}
+
+void Simulation::store(std::string& out) {
+  ArchiveWriter archive(out);
+  archive(fingerprint_);
+  persist(archive);
+}
+
+void Simulation::restore(std::string_view stored) {
+  ArchiveReader archive(stored);
+  std::uint64_t fingerprint = 0;
+  archive(fingerprint);
+  if (fingerprint != fingerprint_) {
+    throw std::runtime_error("the stored state belongs to another world");
+  }
+  persist(archive);
+  place(robot_.footprint, vehicle_.state().robot_in_world, outline_);
+  imu_reading_.stamp = now();
+  update_truth();
+}
+
+}  // namespace coop::simulator
