@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "conversions/time.hpp"
 #include "coop_msgs/msg/ComponentStatus.h"
 
 namespace coop::runtime {
@@ -81,9 +82,7 @@ void HealthReporter::beat() {
   coop_msgs::msg::ComponentStatus status;
   status.name(name_);
   // The heartbeat is about the process: system time, also in simulations.
-  const Time now = SystemClock().now();
-  status.stamp().sec(static_cast<std::int32_t>(to_nanoseconds(now) / 1'000'000'000));
-  status.stamp().nanosec(static_cast<std::uint32_t>(to_nanoseconds(now) % 1'000'000'000));
+  status.stamp(conversions::to_msg(SystemClock().now()));
   status.state(static_cast<std::uint8_t>(health_));
   status.detail(detail_);
   status.pid(static_cast<std::uint32_t>(::getpid()));

@@ -112,7 +112,8 @@ const TransformBuffer& Node::transforms() {
 
 void Node::publish_transform(std::string_view parent, std::string_view child, Time stamp,
                              const Pose3& child_in_parent) {
-  impl_->broadcaster(*this).publish(parent, child, stamp, child_in_parent);
+  impl_->broadcaster(*this).publish(
+      {stamp, std::string(parent), std::string(child), child_in_parent});
 }
 
 void Node::publish_transform(std::string_view parent, std::string_view child, Time stamp,
@@ -122,7 +123,8 @@ void Node::publish_transform(std::string_view parent, std::string_view child, Ti
 
 void Node::publish_static_transform(std::string_view parent, std::string_view child,
                                     const Pose3& child_in_parent) {
-  impl_->broadcaster(*this).publish_static(parent, child, now(), child_in_parent);
+  impl_->broadcaster(*this).publish_static(
+      {now(), std::string(parent), std::string(child), child_in_parent});
 }
 
 void Node::set_starting() {

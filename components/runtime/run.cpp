@@ -21,10 +21,11 @@ class ClockFollower {
   ClockFollower(Node& node, ManualClock& clock) {
     node.subscribe<rosgraph_msgs::msg::Clock>(
         "clock", Qos::kEvent, [&node, &clock](const rosgraph_msgs::msg::Clock& message) {
-          const Time time = conversions::from_msg(message.clock());
+          const auto time = conversions::from_msg(message);
+          if (!time) return;
           const Time before = clock.now();
-          clock.set(time);
-          if (before == Time{} || time < before) node.handle_clock_jump();
+          clock.set(*time);
+          if (before == Time{} || *time < before) node.handle_clock_jump();
         });
   }
 };

@@ -1,13 +1,10 @@
 #include "runtime/transform_topics.hpp"
 
-#include <algorithm>
+#include <span>
 
 #include "conversions/geometry.hpp"
-#include "conversions/time.hpp"
 
 namespace coop::runtime {
-
-using geometry_msgs::msg::TransformStamped;
 
 TransformListener::TransformListener(Node& node) {
   node.subscribe<tf2_msgs::msg::TFMessage>(
@@ -20,56 +17,37 @@ TransformListener::TransformListener(Node& node) {
 
 void TransformListener::receive(Node& node, const tf2_msgs::msg::TFMessage& message,
                                 bool is_static) {
-  for (const TransformStamped& transform : message.transforms()) {
-    const auto pose = conversions::from_msg(transform.transform());
-    if (!pose) {
+  for (const auto& transform_message : message.transforms()) {
+    const auto transform = conversions::from_msg(transform_message);
+    if (!transform) {
       if (node.log().is_due("bad transform", std::chrono::seconds(5))) {
-        node.log().warning("transform {} -> {} ignored: {}", transform.header().frame_id(),
-                           transform.child_frame_id(), pose.error());
+        node.log().warning("transform {} -> {} ignored: {}", transform_message.header().frame_id(),
+                           transform_message.child_frame_id(), transform.error());
       }
       continue;
     }
-    const std::string& parent = transform.header().frame_id();
     if (is_static) {
-      buffer_.insert_static(parent, transform.child_frame_id(), *pose);
+      buffer_.insert_static(transform->parent, transform->child, transform->child_in_parent);
     } else {
-      buffer_.insert(parent, transform.child_frame_id(),
-                     conversions::from_msg(transform.header().stamp()), *pose);
+      buffer_.insert(transform->parent, transform->child, transform->stamp,
+                     transform->child_in_parent);
     }
   }
 }
-
-namespace {
-
-TransformStamped to_message(std::string_view parent, std::string_view child, Time stamp,
-                            const Pose3& pose) {
-  TransformStamped message;
-  message.header().frame_id(std::string(parent));
-  message.header().stamp(conversions::to_msg(stamp));
-  message.child_frame_id(std::string(child));
-  message.transform(conversions::to_transform_msg(pose));
-  return message;
-}
-
-}  // namespace
 
 TransformPublisher::TransformPublisher(Node& node)
     : moving_(node.advertise<tf2_msgs::msg::TFMessage>("tf", Qos::kEvent)),
       fixed_(node.advertise<tf2_msgs::msg::TFMessage>("tf_static", Qos::kStateLatched)) {}
 
-void TransformPublisher::publish(std::string_view parent, std::string_view child, Time stamp,
-                                 const Pose3& pose) {
-  tf2_msgs::msg::TFMessage message;
-  message.transforms().push_back(to_message(parent, child, stamp, pose));
-  moving_.publish(message);
+void TransformPublisher::publish(const StampedTransform& transform) {
+  moving_.publish(conversions::to_msg(std::span(&transform, 1)));
 }
 
-void TransformPublisher::publish_static(std::string_view parent, std::string_view child, Time stamp,
-                                        const Pose3& pose) {
-  auto& transforms = fixed_message_.transforms();
-  std::erase_if(transforms, [&](const auto& known) { return known.child_frame_id() == child; });
-  transforms.push_back(to_message(parent, child, stamp, pose));
-  fixed_.publish(fixed_message_);
+void TransformPublisher::publish_static(StampedTransform transform) {
+  std::erase_if(fixed_transforms_,
+                [&](const StampedTransform& known) { return known.child == transform.child; });
+  fixed_transforms_.push_back(std::move(transform));
+  fixed_.publish(conversions::to_msg(fixed_transforms_));
 }
 
 }  // namespace coop::runtime

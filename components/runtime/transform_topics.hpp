@@ -1,4 +1,7 @@
 #pragma once
+#include <vector>
+
+#include "core/stamped.hpp"
 #include "core/transform_buffer.hpp"
 #include "runtime/node.hpp"
 #include "tf2_msgs/msg/TFMessage.h"
@@ -21,14 +24,13 @@ class TransformListener {
 class TransformPublisher {
  public:
   explicit TransformPublisher(Node& node);
-  void publish(std::string_view parent, std::string_view child, Time stamp, const Pose3& pose);
-  void publish_static(std::string_view parent, std::string_view child, Time stamp,
-                      const Pose3& pose);
+  void publish(const StampedTransform& transform);
+  void publish_static(StampedTransform transform);
 
  private:
   Publisher<tf2_msgs::msg::TFMessage> moving_;
   Publisher<tf2_msgs::msg::TFMessage> fixed_;
-  tf2_msgs::msg::TFMessage fixed_message_;
+  std::vector<StampedTransform> fixed_transforms_;
 };
 
 }  // namespace coop::runtime

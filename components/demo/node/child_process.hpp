@@ -1,0 +1,32 @@
+#pragma once
+#include <sys/types.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace coop::demo {
+
+/// A program started by this one, its output in a file; asked to stop (SIGTERM) and waited for when
+/// this object goes.
+class ChildProcess {
+ public:
+  /// Throws std::system_error.
+  ChildProcess(const std::vector<std::string>& command, const std::filesystem::path& output);
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  /// Exit code (128 + signal where it was killed) once it has ended.
+  [[nodiscard]] std::optional<int> poll();
+  void ask_to_stop() const;
+  /// Waits for the end.
+  int wait();
+
+ private:
+  pid_t pid_ = -1;
+  std::optional<int> exit_code_;
+};
+
+}  // namespace coop::demo

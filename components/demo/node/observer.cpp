@@ -1,0 +1,110 @@
+#include "demo/node/observer.hpp"
+
+#include <fmt/format.h>
+
+#include "conversions/geometry.hpp"
+#include "conversions/navigation.hpp"
+#include "conversions/time.hpp"
+
+namespace coop::demo {
+
+using coop_msgs::msg::GroundTruth;
+using coop_msgs::msg::MissionStatus;
+using coop_msgs::msg::SimEgg;
+using coop_msgs::msg::World;
+using nav_msgs::msg::OccupancyGrid;
+using runtime::Qos;
+
+namespace {
+
+constexpr auto kTrackPeriod = std::chrono::milliseconds(100);
+constexpr auto kPatience = std::chrono::seconds(2);
+
+const char* mission_state_name(std::uint8_t state) {
+  static constexpr std::array kNames{"idle",      "searching", "ordering", "driving", "picking",
+                                     "returning", "done",      "failed",   "paused"};
+  return state < kNames.size() ? kNames.at(state) : "unknown";
+}
+
+const char* egg_state_name(std::uint8_t state) {
+  static constexpr std::array kNames{"seen",    "queued", "approaching",
+                                     "picking", "picked", "failed"};
+  return state < kNames.size() ? kNames.at(state) : "unknown";
+}
+
+}  // namespace
+
+Observer::Observer(runtime::Node& node)
+    : node_(node), transforms_(node.transforms()), waiting_("map", kPatience, 200) {
+  node.subscribe<World>("world", Qos::kStateLatched,
+                        [this](const World& world) { receive(world); });
+  node.subscribe<GroundTruth>("ground_truth", Qos::kSensorStream,
+                              [this](const GroundTruth& truth) { receive(truth); });
+  node.subscribe<MissionStatus>("mission_status", Qos::kStateLatched,
+                                [this](const MissionStatus& status) { receive(status); });
+  node.subscribe<OccupancyGrid>("map", Qos::kStateLatched, [this](const OccupancyGrid& message) {
+    if (auto grid = conversions::from_msg(message)) record_.map = std::move(grid->value);
+  });
+  node.subscribe<OccupancyGrid>("global_costmap", Qos::kStateLatched,
+                                [this](const OccupancyGrid& message) {
+                                  if (auto grid = conversions::from_msg(message))
+                                    record_.costmap = std::move(grid->value);
+                                });
+  node.every(kTrackPeriod, [this] { match_track(); });
+}
+
+void Observer::receive(const World& world) {
+  // The map's origin is where the robot stood when its mapping began: the start pose of the world.
+  const auto start = conversions::pose3_from_msg(world.robot_start());
+  if (!start || world_in_map_) return;
+  world_in_map_ = to_pose2(*start).inverse();
+  record_.eggs_in_world = static_cast<int>(world.eggs().size());
+}
+
+void Observer::receive(const GroundTruth& truth) {
+  record_.collisions = truth.collision_count();
+  record_.eggs_collected =
+      static_cast<int>(std::ranges::count(truth.eggs(), coop_msgs::msg::SimEgg_Constants::COLLECTED,
+                                          [](const SimEgg& egg) { return egg.state(); }));
+  const auto stamp = conversions::from_msg(truth.header().stamp());
+  const auto pose = conversions::pose3_from_msg(truth.robot());
+  if (!stamp || !pose || *stamp < last_track_ + kTrackPeriod) return;
+  last_track_ = *stamp;
+  waiting_.push({*stamp, to_pose2(*pose)}, "base_link", *stamp);
+}
+
+void Observer::match_track() {
+  if (!world_in_map_) return;
+  waiting_.process(transforms_, node_.now(), [this](const Truth& truth, const Pose3& base_in_map) {
+    record_.track.push_back(
+        {truth.stamp, *world_in_map_ * truth.robot_in_world, to_pose2(base_in_map)});
+  });
+}
+
+void Observer::receive(const MissionStatus& status) {
+  record_.mission_state = mission_state_name(status.state());
+  record_.mission_detail = status.detail();
+  record_.order = status.order();
+  record_.tour_cost = status.tour_cost();
+  record_.eggs.clear();
+  for (const auto& egg : status.eggs()) {
+    record_.eggs.push_back({egg.egg_id(),
+                            {egg.position().x(), egg.position().y()},
+                            egg_state_name(egg.state()),
+                            egg.attempts(),
+                            egg.reason()});
+  }
+}
+
+std::string Observer::progress() const {
+  if (record_.mission_state.empty()) return "starting";
+  std::string line = record_.mission_state;
+  if (!record_.mission_detail.empty()) line += ": " + record_.mission_detail;
+  if (record_.eggs_in_world > 0 && !record_.eggs.empty()) {
+    line += fmt::format(" [eggs seen {}, collected {} of {}]", record_.eggs.size(),
+                        record_.eggs_collected, record_.eggs_in_world);
+  }
+  return line;
+}
+
+}  // namespace coop::demo

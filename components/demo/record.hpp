@@ -1,0 +1,45 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/grid.hpp"
+#include "core/pose.hpp"
+#include "core/time.hpp"
+
+namespace coop::demo {
+
+/// What became of one egg, as the mission tells it.
+struct EggRecord {
+  std::string id;
+  Eigen::Vector2d egg_in_map{0, 0};
+  std::string state;  ///< "picked", "failed", ...
+  int attempts = 0;
+  std::string reason;  ///< of a failure
+};
+
+/// The robot at one time: where it was and where it thought it was.
+struct TrackPoint {
+  Time stamp{};
+  Pose2 truth_in_map;
+  Pose2 estimate_in_map;
+};
+
+/// Everything the report tells of one run, gathered from the topics. The truth is the simulator's,
+/// brought into the map frame.
+struct Record {
+  OccupancyGrid map;
+  /// nav2's percentages: 100 lethal, 99 inscribed, 1 to 98 restricted, 0 free, -1 unknown.
+  OccupancyGrid costmap;
+  std::vector<TrackPoint> track;  ///< ordered by stamp
+  std::vector<EggRecord> eggs;
+  std::vector<std::string> order;  ///< ids in the order the colony chose
+  double tour_cost = 0.0;          ///< m, as ordered
+  std::uint32_t collisions = 0;
+  int eggs_in_world = 0;
+  int eggs_collected = 0;  ///< by the simulator's count
+  std::string mission_state;
+  std::string mission_detail;
+};
+
+}  // namespace coop::demo

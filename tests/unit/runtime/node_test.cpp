@@ -1,0 +1,139 @@
+#include "runtime/node.hpp"
+
+#include <gtest/gtest.h>
+
+#include "coop_msgs/msg/ComponentStatus.h"
+#include "core/config/fields.hpp"
+#include "std_msgs/msg/String.h"
+#include "support/component_fixture.hpp"
+
+namespace coop::runtime {
+namespace {
+
+using coop_msgs::msg::ComponentStatus;
+using StringMessage = std_msgs::msg::String;
+using std::chrono::milliseconds;
+
+/// Repeats what it hears, every 100 ms.
+class Parrot {
+ public:
+  struct Config {
+    std::string prefix = "I heard ";
+    void describe(config::Fields& fields) { fields.text("prefix", prefix, {}); }
+  };
+  Parrot(Node& node, Config config)
+      : config_(std::move(config)), out_(node.advertise<StringMessage>("echo", Qos::kEvent)) {
+    node.subscribe<StringMessage>(
+        "voice", Qos::kEvent, [this](const StringMessage& message) { heard_ = message.data(); });
+    node.every(milliseconds(100), [this] {
+      StringMessage message;
+      message.data(config_.prefix + heard_);
+      out_.publish(message);
+    });
+    node.on_stop([this] {
+      StringMessage message;
+      message.data("bye after " + heard_);
+      out_.publish(message);
+    });
+  }
+
+ private:
+  Config config_;
+  std::string heard_ = "nothing";
+  Publisher<StringMessage> out_;
+};
+
+class NodeTest : public ::testing::Test {
+ protected:
+  test::ComponentFixture world_;
+};
+
+TEST_F(NodeTest, CallbacksAndTimersRunOnTheClockOfTheTest) {
+  const auto echo = world_.collect<StringMessage>("echo", Qos::kEvent);
+  auto voice = world_.tester().advertise<StringMessage>("voice", Qos::kEvent);
+  world_.add<Parrot>("parrot", {});
+  world_.advance(milliseconds(250));
+  StringMessage message;
+  message.data("quack");
+  voice.publish(message);
+  world_.advance(milliseconds(100));
+  ASSERT_EQ(echo->size(), 3U);
+  EXPECT_EQ(echo->at(1).data(), "I heard nothing");
+  EXPECT_EQ(echo->at(2).data(), "I heard quack");
+}
+
+TEST_F(NodeTest, WhatArrivedBeforeTheStopIsHandledBeforeTheStopCallbacks) {
+  const auto echo = world_.collect<StringMessage>("echo", Qos::kEvent);
+  auto voice = world_.tester().advertise<StringMessage>("voice", Qos::kEvent);
+  world_.add<Parrot>("parrot", {});
+  StringMessage message;
+  message.data("quack");
+  voice.publish(message);
+  world_.remove("parrot");
+  ASSERT_EQ(echo->size(), 1U);
+  EXPECT_EQ(echo->front().data(), "bye after quack");
+}
+
+TEST_F(NodeTest, HealthIsReportedAtEveryChangeWithItsReason) {
+  const auto statuses = world_.collect<ComponentStatus>("component_status", Qos::kHeartbeat);
+  world_.add<Parrot>("parrot", {});
+  Node& node = world_.node_of("parrot");
+  node.set_degraded("no voice for 1 s");
+  node.set_degraded("no voice for 1 s");
+  node.set_ready();
+  world_.settle();
+  std::vector<std::pair<int, std::string>> changes;
+  for (const ComponentStatus& status : *statuses) {
+    if (status.name() != "parrot") continue;
+    const std::pair<int, std::string> now{status.state(), status.detail()};
+    if (changes.empty() || changes.back() != now) changes.push_back(now);
+  }
+  const std::vector<std::pair<int, std::string>> expected{
+      {1, ""}, {2, "no voice for 1 s"}, {1, ""}};
+  EXPECT_EQ(changes, expected);
+}
+
+TEST_F(NodeTest, TransformsTravelBetweenNodesAlsoToLateOnes) {
+  world_.add<Parrot>("parrot", {});
+  Node& parrot = world_.node_of("parrot");
+  parrot.publish_static_transform("base_link", "laser_link", to_pose3({0.6, 0, 0}));
+  parrot.publish_static_transform("base_link", "camera_link", to_pose3({0.7, 0, 0}));
+  const TransformBuffer& transforms = world_.tester().transforms();
+  world_.settle();
+  parrot.publish_transform("odom", "base_link", world_.now(), Pose2{1, 0, 0});
+  world_.settle();
+  const auto pose = transforms.lookup("odom", "laser_link", world_.now());
+  ASSERT_TRUE(pose);
+  EXPECT_NEAR(pose->translation().x(), 1.6, 1e-12);
+  EXPECT_TRUE(transforms.lookup("odom", "camera_link", world_.now()));
+}
+
+TEST_F(NodeTest, AClockSetBackClearsTheHistoryAndTellsTheComponent) {
+  world_.add<Parrot>("parrot", {});
+  Node& node = world_.node_of("parrot");
+  const TransformBuffer& transforms = node.transforms();
+  world_.tester().publish_transform("odom", "base_link", world_.now(), Pose2{1, 0, 0});
+  world_.settle();
+  ASSERT_TRUE(transforms.lookup("odom", "base_link", world_.now()));
+  bool told = false;
+  node.on_clock_jump([&] { told = true; });
+  world_.set_time(time_from_seconds(1));
+  node.handle_clock_jump();
+  EXPECT_TRUE(told);
+  EXPECT_EQ(transforms.lookup("odom", "base_link", time_from_seconds(1000)).error(),
+            TransformError::kNotYet);
+}
+
+TEST_F(NodeTest, StreamsOfChanceAreNamedByComponentAndPurpose) {
+  world_.add<Parrot>("parrot", {});
+  world_.add<Parrot>("crow", {});
+  RandomStream a = world_.node_of("parrot").random("noise");
+  RandomStream b = world_.node_of("crow").random("noise");
+  RandomStream again = world_.node_of("parrot").random("noise");
+  const auto first = a();
+  EXPECT_NE(first, b());
+  EXPECT_EQ(first, again());
+}
+
+}  // namespace
+}  // namespace coop::runtime

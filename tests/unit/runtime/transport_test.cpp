@@ -1,0 +1,193 @@
+// The promises of the intents, on both transports.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+
+#include "coop_msgs/msg/NavigationStatus.h"
+#include "runtime/dds_transport.hpp"
+#include "runtime/in_process_transport.hpp"
+#include "std_msgs/msg/String.h"
+
+namespace coop::runtime {
+namespace {
+
+using coop_msgs::msg::NavigationStatus;
+using StringMessage = std_msgs::msg::String;
+constexpr auto kDeadline = std::chrono::seconds(20);
+
+/// Signals arrivals to the waiting test.
+class Arrivals {
+ public:
+  std::function<void()> callback() {
+    return [this] {
+      const std::scoped_lock lock(mutex_);
+      arrived_.notify_all();
+    };
+  }
+  /// Asks again at every arrival and, for what no arrival tells (matching), every 10 ms.
+  template <class Condition>
+  bool wait_until(Condition condition) {
+    const auto end = std::chrono::steady_clock::now() + kDeadline;
+    // The condition runs unlocked: it takes from readers, whose threads call back here.
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      std::unique_lock lock(mutex_);
+      arrived_.wait_for(lock, std::chrono::milliseconds(10));
+    }
+    return true;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable arrived_;
+};
+
+int test_domain() {
+  return 60 + static_cast<int>(::getpid()) % 100;
+}
+
+std::unique_ptr<Transport> make_transport(const std::string& kind, const std::string& name,
+                                          bool reliable_streams = false) {
+  static InProcessTransport bus;
+  if (kind == "dds") {
+    return std::make_unique<DdsTransport>(DdsOptions{.domain = test_domain(),
+                                                     .participant_name = name,
+                                                     .partition = "transport_test",
+                                                     .reliable_streams = reliable_streams});
+  }
+  return std::make_unique<InProcessTransport>(bus);  // copies share the bus
+}
+
+class TransportTest : public ::testing::TestWithParam<std::string> {
+ protected:
+  template <class Message>
+  std::unique_ptr<Writer> writer(const std::string& topic, Qos qos) {
+    return a_->create_writer(topic, message_type<Message>(), qos);
+  }
+  template <class Message>
+  std::unique_ptr<Reader> reader(const std::string& topic, Qos qos) {
+    return b_->create_reader(topic, message_type<Message>(), qos, arrivals_.callback());
+  }
+  bool matched(const Writer& writer, const Reader& reader) {
+    return arrivals_.wait_until(
+        [&] { return writer.matched_readers() > 0 && reader.matched_writers() > 0; });
+  }
+  std::unique_ptr<Transport> a_ = make_transport(GetParam(), "a");
+  std::unique_ptr<Transport> b_ = make_transport(GetParam(), "b");
+  Arrivals arrivals_;
+};
+
+TEST_P(TransportTest, EventsArriveAllInOrderWithRisingSequence) {
+  const auto from = writer<StringMessage>("events", Qos::kEvent);
+  const auto to = reader<StringMessage>("events", Qos::kEvent);
+  ASSERT_TRUE(matched(*from, *to));
+  StringMessage message;
+  for (int i = 1; i <= 500; ++i) {
+    message.data(std::to_string(i));
+    ASSERT_TRUE(from->write(&message));
+  }
+  EXPECT_EQ(from->sequence(), 500U);
+  for (int i = 1; i <= 500; ++i) {
+    Sample sample;
+    ASSERT_TRUE(arrivals_.wait_until([&] { return to->take(sample); })) << i;
+    EXPECT_EQ(static_cast<const StringMessage*>(sample.message.get())->data(), std::to_string(i));
+    EXPECT_EQ(sample.sequence, static_cast<std::uint64_t>(i));
+  }
+}
+
+TEST_P(TransportTest, ALatchedStateReachesALateReaderOncePerKey) {
+  const auto from = writer<NavigationStatus>("latched", Qos::kStateLatched);
+  NavigationStatus status;
+  for (const auto& [source, detail] :
+       {std::pair{"dwa", "old"}, std::pair{"global_planner", "planning"},
+        std::pair{"dwa", "new"}}) {
+    status.source(source);
+    status.detail(detail);
+    ASSERT_TRUE(from->write(&status));
+  }
+  const auto late = reader<NavigationStatus>("latched", Qos::kStateLatched);
+  std::map<std::string, std::string> seen;
+  Sample sample;
+  ASSERT_TRUE(arrivals_.wait_until([&] {
+    while (late->take(sample)) {
+      const auto& got = *static_cast<const NavigationStatus*>(sample.message.get());
+      seen[got.source()] = got.detail();
+    }
+    return seen.size() == 2;
+  }));
+  EXPECT_EQ(seen["dwa"], "new");
+  EXPECT_EQ(seen["global_planner"], "planning");
+}
+
+TEST_P(TransportTest, AStreamKeepsTheNewestWhenTheReaderIsLate) {
+  const auto from = writer<StringMessage>("stream", Qos::kSensorStream);
+  const auto to = reader<StringMessage>("stream", Qos::kSensorStream);
+  ASSERT_TRUE(matched(*from, *to));
+  StringMessage message;
+  for (int i = 1; i <= 50; ++i) {
+    message.data(std::to_string(i));
+    from->write(&message);
+  }
+  Sample sample;
+  std::string last;
+  int taken = 0;
+  ASSERT_TRUE(arrivals_.wait_until([&] {
+    while (to->take(sample)) {
+      last = static_cast<const StringMessage*>(sample.message.get())->data();
+      ++taken;
+    }
+    return last == "50";
+  }));
+  EXPECT_LE(taken, 50);
+}
+
+TEST_P(TransportTest, ATopicCannotCarryTwoTypes) {
+  const auto from = writer<StringMessage>("typed", Qos::kEvent);
+  EXPECT_THROW((void)writer<NavigationStatus>("typed", Qos::kEvent), std::runtime_error);
+}
+
+INSTANTIATE_TEST_SUITE_P(Transports, TransportTest, ::testing::Values("dds", "in_process"),
+                         [](const auto& kind) { return kind.param; });
+
+TEST(DdsTransportTest, ReliableStreamsLoseNothing) {
+  const auto a = make_transport("dds", "a", true);
+  const auto b = make_transport("dds", "b", true);
+  Arrivals arrivals;
+  const auto from = a->create_writer("log", message_type<StringMessage>(), Qos::kSensorStream);
+  const auto to = b->create_reader("log", message_type<StringMessage>(), Qos::kSensorStream,
+                                   arrivals.callback());
+  ASSERT_TRUE(arrivals.wait_until([&] { return from->matched_readers() > 0; }));
+  StringMessage message;
+  message.data(std::string(2000, 'x'));
+  for (int i = 0; i < 1000; ++i) ASSERT_TRUE(from->write(&message));
+  ASSERT_TRUE(from->wait_for_acknowledgments(kDeadline));
+  Sample sample;
+  int taken = 0;
+  while (to->take(sample)) ++taken;
+  EXPECT_EQ(taken, 1000);
+}
+
+TEST(DdsTransportTest, AnotherPartitionIsNotHeard) {
+  const auto a = make_transport("dds", "a");
+  DdsTransport other({.domain = test_domain(), .participant_name = "o", .partition = "other"});
+  Arrivals arrivals;
+  const auto from = a->create_writer("shared", message_type<StringMessage>(), Qos::kEvent);
+  const auto deaf = other.create_reader("shared", message_type<StringMessage>(), Qos::kEvent,
+                                        arrivals.callback());
+  const auto b = make_transport("dds", "b");
+  const auto hears =
+      b->create_reader("shared", message_type<StringMessage>(), Qos::kEvent, arrivals.callback());
+  ASSERT_TRUE(arrivals.wait_until([&] { return from->matched_readers() > 0; }));
+  StringMessage message;
+  from->write(&message);
+  Sample sample;
+  ASSERT_TRUE(arrivals.wait_until([&] { return hears->take(sample); }));
+  EXPECT_FALSE(deaf->take(sample));
+  EXPECT_EQ(deaf->matched_writers(), 0);
+}
+
+}  // namespace
+}  // namespace coop::runtime
