@@ -65,7 +65,7 @@ void Document::set(std::string_view assignment) {
   std::size_t begin = 0;
   for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', begin)) {
     const std::string part = key.substr(begin, dot - begin);
-    if (node[part].IsDefined() && !node[part].IsMap()) {
+    if (node[part].IsDefined() && !node[part].IsNull() && !node[part].IsMap()) {
       throw Error("--set " + key + ": '" + key.substr(0, dot) + "' is no mapping");
     }
     node.reset(node[part]);
