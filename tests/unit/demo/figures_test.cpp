@@ -79,7 +79,8 @@ TEST(PictureTest, ObstaclesArePurpleAndInscribedCellsLightBlue) {
 
 TEST(ReportTest, TheFolderHoldsPageFiguresAndPicturesAndTextIsEscaped) {
   const test::TemporaryFolder folder;
-  write_report(folder.path(), sample_record(), sample_record(), {.seed = 7});
+  write_report(folder.path(), sample_record(), sample_record(),
+               {.seed = 7, .wall_seconds = 1, .version = "Coop"});
   const std::string page = read_file(folder.path() / "report.html");
   EXPECT_NE(page.find("1 of 2 eggs collected"), std::string::npos);
   EXPECT_NE(page.find("&lt;no path&gt;"), std::string::npos);
