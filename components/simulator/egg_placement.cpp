@@ -7,6 +7,7 @@
 
 #include "core/config/error.hpp"
 #include "core/costmap/distance_transform.hpp"
+#include "core/costmap/footprint.hpp"
 #include "core/random.hpp"
 #include "simulator/contact.hpp"
 
@@ -45,13 +46,9 @@ class ApproachCheck {
  public:
   ApproachCheck(const RandomEggs& wanted, const world::World& world, const RobotShape& robot)
       : wanted_(wanted), world_(world), robot_(robot) {
-    double half_width = 0.0;
-    for (const Vector2d& p : robot.footprint) {
-      half_width = std::max(half_width, std::abs(p.y()));
-      // Grown from the middle outwards.
-      body_.emplace_back(p + wanted.margin * Vector2d(p.cwiseSign()));
-    }
-    reachable_ = reachable_floor(world, half_width + wanted.margin);
+    const Footprint body(robot.footprint, wanted.margin);
+    body_ = body.vertices();
+    reachable_ = reachable_floor(world, body.half_width());
   }
 
   [[nodiscard]] bool possible(const Vector2d& egg) {

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/costmap/footprint.hpp"
 #include "simulator/archive.hpp"
 #include "simulator/contact.hpp"
 
 namespace coop::simulator {
 namespace {
+
+/// A contact lasts until the robot is this far away, m: pushing on against a wall is one collision.
+constexpr double kContactEnd = 0.03;
 
 /// Tells worlds apart, so that nobody resumes in another one.
 class Fingerprint {
@@ -69,7 +73,8 @@ Simulation::Simulation(const SimulationConfig& config, const RobotShape& robot,
       wheels_(config.wheel_sensor, robot.base, world.seed),
       imu_(config.imu, robot.imu_in_base, world.seed),
       eggs_(config.eggs, robot, world.eggs),
-      flock_(config.animals, animals, world.seed) {
+      flock_(config.animals, animals, world.seed),
+      grown_footprint_(Footprint(robot.footprint, kContactEnd).vertices()) {
   fingerprint_ = fingerprint_of(world, flock_.animals());
   wheels_.read(vehicle_.state().steering, now());
   imu_reading_ = imu_.read({}, {}, to_seconds(kTick), now());
@@ -77,12 +82,17 @@ Simulation::Simulation(const SimulationConfig& config, const RobotShape& robot,
   update_truth();
 }
 
-bool Simulation::touches_something() const {
-  if (outline_hits_grid(outline_, grid_)) return true;
+bool Simulation::touches_something(std::span<const Eigen::Vector2d> outline) const {
+  if (outline_hits_grid(outline, grid_)) return true;
   const auto& animals = flock_.animals();
   return std::any_of(animals.begin(), animals.end(), [&](const world::Animal& animal) {
-    return distance_to_outline(outline_, animal.position) < animal.radius;
+    return distance_to_outline(outline, animal.position) < animal.radius;
   });
+}
+
+bool Simulation::touches_something_near() {
+  place(grown_footprint_, vehicle_.state().robot_in_world, grown_outline_);
+  return touches_something(grown_outline_);
 }
 
 void Simulation::drive() {
@@ -91,16 +101,16 @@ void Simulation::drive() {
   const Twist2 before = vehicle_.state().velocity;
   const VehicleMotion motion = vehicle_.roll(setpoint, dt);
   place(robot_.footprint, motion.robot_in_world, outline_);
-  if (motion.distance != 0.0 && touches_something()) {
+  if (motion.distance != 0.0 && touches_something(outline_)) {
     if (!in_collision_) ++collision_count_;
     in_collision_ = true;
     vehicle_.halt();
     drive_.reset({0.0, setpoint.steering, setpoint.cause});
     place(robot_.footprint, vehicle_.state().robot_in_world, outline_);
   } else {
-    if (motion.distance != 0.0) in_collision_ = false;
     vehicle_.move(motion, dt);
     wheels_.roll(motion.rolled_left, motion.rolled_right);
+    if (in_collision_) in_collision_ = touches_something_near();
   }
   imu_reading_ = imu_.read(before, vehicle_.state().velocity, dt, now());
 }
@@ -129,7 +139,8 @@ template <class Archive>
 void Simulation::persist(Archive& archive) {
   vehicle::DriveSetpoint setpoint = drive_.setpoint();
   archive(tick_, setpoint.speed, setpoint.steering, setpoint.cause, vehicle_, wheels_, imu_, eggs_,
-          flock_, gripper_.suction, gripper_.tip_in_base, in_collision_, collision_count_);
+          flock_, gripper_.suction, gripper_.tip_in_base, in_collision_, collision_count_,
+          imu_reading_.angular_velocity, imu_reading_.linear_acceleration);
   drive_.reset(setpoint);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,7 +67,8 @@ class Simulation {
  private:
   void drive();
   void update_truth();
-  [[nodiscard]] bool touches_something() const;
+  [[nodiscard]] bool touches_something(std::span<const Eigen::Vector2d> outline) const;
+  [[nodiscard]] bool touches_something_near();
   template <class Archive>
   void persist(Archive& archive);
 
@@ -85,7 +87,9 @@ class Simulation {
   std::uint32_t collision_count_ = 0;
   ImuReading imu_reading_;
   world::GroundTruth truth_;
-  std::vector<Eigen::Vector2d> outline_;  ///< of the robot in world
+  std::vector<Eigen::Vector2d> outline_;          ///< of the robot in world
+  std::vector<Eigen::Vector2d> grown_footprint_;  ///< in base_link
+  std::vector<Eigen::Vector2d> grown_outline_;    ///< in world
 };
 
 }  // namespace coop::simulator

@@ -122,6 +122,8 @@ void save_map(const OccupancyGrid& grid, const std::filesystem::path& stem) {
   metadata.image = with_suffix(".pgm").filename().string();
   metadata.resolution = grid.geometry.resolution;
   metadata.origin = {grid.geometry.origin.x(), grid.geometry.origin.y(), 0.0};
+  // The darkness of an unknown pixel, 50 / 255, must not count as free when the map is read again.
+  metadata.free_thresh = 0.196;
   write_file_atomically(
       with_suffix(".pgm"),
       to_pgm(to_image(grid), "occupancy grid, " + number_text(metadata.resolution) + " m a pixel"));
