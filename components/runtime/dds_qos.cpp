@@ -12,6 +12,8 @@ namespace {
 constexpr std::uint32_t kSocketBuffer = 4U << 20U;
 constexpr int kStreamDepth = 5;
 constexpr int kEventDepth = 2000;
+/// Writers of one latched topic at a time, such as tf_static.
+constexpr int kLatchedWriters = 16;
 
 /// What writers and readers of an intent share.
 template <class EndpointQos>
@@ -69,6 +71,13 @@ void apply_intent(Qos intent, const DdsOptions& options, dds::DataWriterQos& qos
 
 void apply_intent(Qos intent, const DdsOptions& options, dds::DataReaderQos& qos) {
   apply_common(intent, options, qos);
+  // A reader's history counts the samples of all writers together: with a depth of 1, the last word
+  // of one writer would push out that of another before it is taken.
+  if (intent == Qos::kStateLatched) {
+    qos.history().depth = kLatchedWriters;
+    qos.resource_limits().max_samples_per_instance = kLatchedWriters;
+    qos.resource_limits().max_samples = kLatchedWriters * qos.resource_limits().max_instances;
+  }
 }
 
 }  // namespace coop::runtime

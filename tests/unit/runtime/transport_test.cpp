@@ -4,7 +4,10 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <map>
 #include <mutex>
+#include <set>
+#include <vector>
 
 #include "coop_msgs/msg/NavigationStatus.h"
 #include "runtime/dds_transport.hpp"
@@ -120,6 +123,28 @@ TEST_P(TransportTest, ALatchedStateReachesALateReaderOncePerKey) {
   }));
   EXPECT_EQ(seen["dwa"], "new");
   EXPECT_EQ(seen["global_planner"], "planning");
+}
+
+/// As with tf_static: several programs each have their last word, and the reader is slow to take
+/// them.
+TEST_P(TransportTest, TheLastStateOfEveryLatchedWriterReachesALateReader) {
+  std::vector<std::unique_ptr<Writer>> writers;
+  StringMessage message;
+  for (const char* text : {"one", "two", "three", "four"}) {
+    writers.push_back(writer<StringMessage>("static", Qos::kStateLatched));
+    message.data(text);
+    ASSERT_TRUE(writers.back()->write(&message));
+  }
+  const auto late = reader<StringMessage>("static", Qos::kStateLatched);
+  for (const auto& from : writers) {
+    ASSERT_TRUE(arrivals_.wait_until([&] { return from->matched_readers() == 1; }));
+    ASSERT_TRUE(from->wait_for_acknowledgments(kDeadline));
+  }
+  std::set<std::string> seen;
+  for (Sample sample; late->take(sample);) {
+    seen.insert(static_cast<const StringMessage*>(sample.message.get())->data());
+  }
+  EXPECT_EQ(seen, (std::set<std::string>{"one", "two", "three", "four"}));
 }
 
 TEST_P(TransportTest, AStreamKeepsTheNewestWhenTheReaderIsLate) {
