@@ -3,14 +3,13 @@
 
 namespace coop::runtime {
 
-/// Quality of service by intent. What each means on the wire stands in one place, dds_qos.cpp:
-/// | intent        | reliability | durability      | history            | further |
-/// |---------------|-------------|-----------------|--------------------|--------------------------------------|
-/// | kSensorStream | best effort | volatile        | last 5             | reliable, keep all with
-/// --reliable-streams | | kStateLatched | reliable    | transient local | last 1 (a key)     | | |
-/// kCommand      | reliable    | volatile        | last 1             | writer offers a deadline of
-/// 200 ms   | | kEvent        | reliable    | volatile        | all, up to 2000    | | | kHeartbeat
-/// | reliable    | transient local | last 1 (a key)     | liveliness manual by topic, lease 1 s |
+/// Quality of service by intent: what the data means, not how it travels. The policies of each
+/// stand in one place, dds_qos.cpp; docs/interfaces.md is generated from them.
+///  - kSensorStream: only the newest matters, a lost sample is replaced by the next.
+///  - kStateLatched: the last word of every writer (and key), also for who comes late.
+///  - kCommand: the newest order must arrive, in time.
+///  - kEvent: every one must arrive, in order.
+///  - kHeartbeat: a latched state whose silence is noticed.
 enum class Qos { kSensorStream, kStateLatched, kCommand, kEvent, kHeartbeat };
 
 [[nodiscard]] constexpr std::string_view to_string(Qos qos) {
