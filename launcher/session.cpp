@@ -241,12 +241,25 @@ void refuse_strangers(HealthSource& health, const Plan& plan, Instant until) {
   }
 }
 
+/// A path, or the name of a launch file that comes with Coop: config/launch/sim.yaml, sim.yaml,
+/// sim.
+std::filesystem::path find_launch_file(const std::filesystem::path& wanted, const Places& places) {
+  const std::filesystem::path shipped = places.share / "config" / "launch";
+  auto file = find_file(wanted, {".", places.share, shipped});
+  if (file.empty() && !wanted.has_extension()) {
+    file = find_file(wanted.string() + ".yaml", {shipped});
+  }
+  if (file.empty()) throw config::Error("no launch file '" + wanted.string() + "'");
+  return file;
+}
+
 }  // namespace
 
 Outcome run_system(const UpOptions& options) {
-  const Launch launch = load_launch(options.file, options.overrides);
+  const Places places = Places::of_this_program();
+  const Launch launch = load_launch(find_launch_file(options.file, places), options.overrides);
   RunFolder folder(launch.run_dir);
-  const Plan plan = make_plan(launch, Places::of_this_program(), folder.path());
+  const Plan plan = make_plan(launch, places, folder.path());
   // Before the middleware starts its threads, so that none of them takes a signal.
   SignalFile signals{SIGINT, SIGTERM, SIGHUP, SIGCHLD};
   auto lock = SystemLock::acquire(launch.robot, launch.domain);
@@ -268,10 +281,10 @@ Outcome run_system(const UpOptions& options) {
 }
 
 void check_system(const UpOptions& options) {
-  const Launch launch = load_launch(options.file, options.overrides);
+  const Places places = Places::of_this_program();
+  const Launch launch = load_launch(find_launch_file(options.file, places), options.overrides);
   // Nothing is written into a run folder by a check, so there need not be one.
-  check_all(make_plan(launch, Places::of_this_program(),
-                      std::filesystem::path(launch.run_dir) / "check"));
+  check_all(make_plan(launch, places, std::filesystem::path(launch.run_dir) / "check"));
 }
 
 }  // namespace coop::launcher

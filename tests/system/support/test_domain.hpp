@@ -1,0 +1,9 @@
+#pragma once
+
+namespace coop::test {
+
+/// A DDS domain that no other test process on this machine uses, the same throughout this process.
+/// Throws std::runtime_error where all are taken.
+[[nodiscard]] int test_domain();
+
+}  // namespace coop::test
