@@ -7,7 +7,7 @@ namespace coop::simulator {
 namespace {
 
 /// Below this a drive asked to stand does stand (a lag alone would creep for ever), m/s.
-constexpr double kBreakaway = 0.002;
+constexpr double kBreakaway = 0.01;
 
 double lag(double value, double target, double dt, double time_constant) {
   if (time_constant <= 0.0) return target;

@@ -1,0 +1,28 @@
+#pragma once
+#include "core/time.hpp"
+
+namespace coop::simulator {
+
+/// How many ticks of simulated time are due at a wall time.
+class Pacing {
+ public:
+  /// `rate`: simulated seconds a second; 0: as fast as possible.
+  Pacing(double rate, Duration tick) : rate_(rate), tick_(tick) {}
+
+  /// Ticks to run now; the first call starts the count. A simulation that cannot keep up, or whose
+  /// process slept, falls behind instead of hurrying after: what it lost adds to lost().
+  [[nodiscard]] int due(Time wall_now);
+  /// Simulated time by which the simulation has fallen behind the wall so far.
+  [[nodiscard]] Duration lost() const { return lost_; }
+  /// How often due() should be asked.
+  [[nodiscard]] Duration period() const;
+
+ private:
+  double rate_;
+  Duration tick_;
+  Time base_{};
+  std::int64_t done_ = 0;  ///< ticks since base_
+  Duration lost_{0};
+};
+
+}  // namespace coop::simulator
