@@ -21,6 +21,9 @@ if(COOP_SANITIZER)
   target_link_options(coop_options INTERFACE -fsanitize=${COOP_SANITIZER})
 endif()
 
+# All executables of the robot, without the tests.
+add_custom_target(programs)
+
 # Those of the folders named that hold a CMakeLists.txt.
 function(coop_add_subdirectories)
   foreach(dir IN LISTS ARGN)
@@ -49,6 +52,7 @@ function(coop_node name)
   add_executable(${name} node/main.cpp)
   target_link_libraries(${name} PRIVATE coop_${name}_node)
   install(TARGETS ${name} RUNTIME DESTINATION lib/coop)
+  add_dependencies(programs ${name})
 endfunction()
 
 # coop_test(NAME SOURCES ... [LINK ...] [LABELS unit|component|system]): a GoogleTest program NAME
