@@ -1,0 +1,85 @@
+#include "chassis_driver/node/log_backend.hpp"
+
+#include <stdexcept>
+
+#include "chassis_driver/node/chassis_driver_node.hpp"
+#include "conversions/time.hpp"
+
+namespace coop::chassis_driver {
+namespace {
+
+constexpr Duration kPeriod = std::chrono::milliseconds(5);
+/// Spent at a time on waiting for readers.
+constexpr Duration kGlance = std::chrono::milliseconds(50);
+/// Steps a call: long enough to be fast, short enough to beat the heart and hear signals in
+/// between.
+constexpr int kStepsPerCall = 20;
+
+}  // namespace
+
+LogBackend::LogBackend(runtime::Node& node, const LogConfig& config, OdometryLog log)
+    : node_(node),
+      log_(std::move(log)),
+      playback_(config.playback, log_.begin(), log_.end()),
+      output_(node),
+      clock_(node.advertise<rosgraph_msgs::msg::Clock>("clock", runtime::Qos::kEvent)),
+      wait_for_readers_(config.wait_for_readers),
+      settle_(seconds(config.settle)),
+      patience_(seconds(config.patience)) {
+  if (node.options().sim_time) {
+    throw std::runtime_error("a log's player is the master of time: start it without --sim-time");
+  }
+  while (next_ < log_.size() && log_[next_].stamp < playback_.begin()) ++next_;
+  node.log().info("{}: {} odometry readings, {:.1f} s", config.file, log_.size(),
+                  to_seconds(log_.end() - log_.begin()));
+  node.every(kPeriod, [this] { play(); });
+}
+
+bool LogBackend::readers_are_there() {
+  if (!wait_for_readers_) return true;
+  if (!clock_.has_subscribers() || !output_.has_subscribers()) {
+    heard_since_ = Time{};
+    return false;
+  }
+  if (heard_since_ == Time{}) heard_since_ = node_.now();
+  return node_.now() - heard_since_ >= settle_;
+}
+
+void LogBackend::play() {
+  if (playback_.at_end()) {
+    finish();
+    return;
+  }
+  if (!playback_.started() && !readers_are_there()) return;
+  // Readers that have not yet taken in the last batch hold the playback here, where the heart beats
+  // on, and not in a blocked write.
+  if (!output_.wait_for_acknowledgments(kGlance)) return;
+  for (int i = 0; i < kStepsPerCall; ++i) {
+    const auto step = playback_.next(node_.now());
+    if (!step || !publish_until(*step)) return;
+    playback_.advance(*step);
+  }
+}
+
+bool LogBackend::publish_until(Time step) {
+  while (next_ < log_.size() && log_[next_].stamp <= step) {
+    if (!output_.publish(log_[next_], Eigen::Matrix3d::Zero())) return false;
+    ++next_;
+  }
+  // The clock last: when a component hears that a time has come, the odometry up to it is under
+  // way.
+  return clock_.publish(conversions::to_clock_msg(step));
+}
+
+void LogBackend::finish() {
+  if (ended_at_ == Time{}) ended_at_ = node_.now();
+  const bool heard =
+      output_.wait_for_acknowledgments(kGlance) && clock_.wait_for_acknowledgments(kGlance);
+  if (heard) {
+    node_.finish("the log was played to its end");
+  } else if (node_.now() - ended_at_ > patience_) {
+    node_.fail("the log was played, but not all readers acknowledged its end");
+  }
+}
+
+}  // namespace coop::chassis_driver
