@@ -83,8 +83,7 @@ TEST(SystemViewTest, TheTableHoldsEveryComponentAndTheSums) {
   EXPECT_EQ(
       lines[2],
       "dwa                           ready             17      1:05         1     25      30");
-  EXPECT_THAT(lines[3],
-              HasSubstr("failed             -         -         5      -       -  exit"));
+  EXPECT_THAT(lines[3], HasSubstr("failed             -         -         5      -       -  exit"));
   EXPECT_THAT(lines[4], HasSubstr("25      30"));
   for (const auto& line : format_table(system, 40)) EXPECT_LE(line.size(), 40U);
 }
