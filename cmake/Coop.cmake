@@ -21,8 +21,11 @@ if(COOP_SANITIZER)
   target_link_options(coop_options INTERFACE -fsanitize=${COOP_SANITIZER})
 endif()
 
-# All executables of the robot, without the tests.
+# All executables of the robot, without the tests; and the tests of each label.
 add_custom_target(programs)
+foreach(label unit component system)
+  add_custom_target(tests_${label})
+endforeach()
 
 # Those of the folders named that hold a CMakeLists.txt.
 function(coop_add_subdirectories)
@@ -70,6 +73,9 @@ function(coop_test name)
   target_link_libraries(${name} PRIVATE coop_options ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
   add_test(NAME ${name} COMMAND ${name})
+  foreach(label IN LISTS ARG_LABELS)
+    add_dependencies(tests_${label} ${name})
+  endforeach()
   set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
     WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
 endfunction()
