@@ -1,9 +1,9 @@
-#include "global_planner/grid_planner.hpp"
+#include "core/search/grid_planner.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace coop::global_planner {
+namespace coop {
 namespace {
 
 /// Stands for an inscribed cell opened for a search; kInscribedCost itself is blocked.
@@ -68,4 +68,4 @@ void TraversalGrid::close() {
   opened_.clear();
 }
 
-}  // namespace coop::global_planner
+}  // namespace coop

@@ -1,4 +1,4 @@
-#include "global_planner/dijkstra.hpp"
+#include "core/search/dijkstra.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace coop::global_planner {
+namespace coop {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -150,4 +150,4 @@ GridPath Dijkstra::path_from(const TraversalGrid& grid, Cell start) const {
   return path;
 }
 
-}  // namespace coop::global_planner
+}  // namespace coop

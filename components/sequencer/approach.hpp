@@ -1,0 +1,38 @@
+#pragma once
+#include <functional>
+#include <optional>
+
+#include "core/config/fields.hpp"
+#include "core/pose.hpp"
+
+namespace coop::sequencer {
+
+struct ApproachConfig {
+  double distance = 0.92;      ///< m, d_pe: from base_link to the egg
+  int headings = 24;           ///< poses tried on the circle around the egg
+  double reach_along = 0.10;   ///< m, the egg may lie this much nearer or farther on arrival
+  double reach_across = 0.12;  ///< m, and this much to the side
+
+  void describe(config::Fields& fields);
+};
+
+/// Equation 4: the pose at `distance` from the egg on the line from the robot to it, heading to the
+/// egg.
+[[nodiscard]] Pose2 approach_pose(const Eigen::Vector2d& robot, const Eigen::Vector2d& egg,
+                                  double distance);
+
+/// Cost of getting to a pose in metres, nothing where the robot cannot stand there or get there.
+using PoseCost = std::function<std::optional<double>(const Pose2&)>;
+
+/// Equation 4 where its pose can be taken; otherwise the pose on the same circle, heading to the
+/// egg, that is cheapest. Headings within `avoid_near` rad of one in `avoid` (tried in vain before)
+/// are passed over. Nothing where no pose can be taken.
+[[nodiscard]] std::optional<Pose2> choose_approach(
+    const Pose2& robot_in_map, const Eigen::Vector2d& egg_in_map, const ApproachConfig& config,
+    const PoseCost& cost, const std::vector<double>& avoid = {}, double avoid_near = 0.35);
+
+/// Whether the arm reaches the egg from here.
+[[nodiscard]] bool is_within_reach(const Pose2& robot_in_map, const Eigen::Vector2d& egg_in_map,
+                                   const ApproachConfig& config);
+
+}  // namespace coop::sequencer

@@ -1,0 +1,144 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/config/fields.hpp"
+#include "core/time.hpp"
+#include "sequencer/approach.hpp"
+#include "sequencer/egg_tracks.hpp"
+#include "sequencer/mission_state.hpp"
+
+namespace coop::sequencer {
+
+struct MissionConfig {
+  int expected_eggs = 0;           ///< the search ends when as many are known; 0: all waypoints
+  int max_attempts = 4;            ///< approaches to one egg before it is reported as failed
+  double goal_timeout = 150.0;     ///< s for one drive
+  double goal_repeat = 2.0;        ///< s, the goal is told again, for planners that restarted
+  double pick_repeat = 3.0;        ///< s, the pick is told again under its id
+  double pick_timeout = 60.0;      ///< s for one pick
+  double refresh_distance = 0.04;  ///< m, an approach pose that moved this much is told anew
+  double refresh_until = 0.5;      ///< m from the goal; nearer it stays as it is
+  double settle_time = 0.5;        ///< s of standing still before reach is judged
+  bool return_home = false;        ///< drive back to where the mission began
+
+  void describe(config::Fields& fields);
+};
+
+/// What the navigators say of a goal.
+struct NavigationReport {
+  enum class State { kUnderWay, kArrived, kFailed };
+  std::string goal_id;
+  State state = State::kUnderWay;
+  std::string reason;  ///< of a failure
+};
+
+struct PickReport {
+  std::string pick_id;
+  bool picked = false;
+  bool is_final = true;  ///< false: try the same pick again (the arm is busy)
+  std::string reason;
+};
+
+/// An order of the eggs named, and what it costs.
+struct OrderedEggs {
+  std::vector<std::string> order;
+  double cost = 0.0;
+  double alternative_cost = 0.0;
+};
+
+/// What the mission asks of the map. Given with every step, so that the mission itself stays pure.
+struct MapQueries {
+  PoseCost pose_cost;
+  std::function<OrderedEggs(const Pose2& robot, const std::vector<const EggTask*>& eggs)> order;
+};
+
+/// Everything the mission sees at one time.
+struct MissionSnapshot {
+  std::optional<Pose2> robot_in_map;
+  double speed = 0.0;                          ///< m/s
+  std::optional<NavigationReport> navigation;  ///< the last word on the present goal
+  std::optional<PickReport> pick;              ///< the last word on the present pick
+  const std::vector<EggTrack>* tracks = nullptr;
+};
+
+struct GoalOrder {
+  std::string goal_id;
+  Pose2 pose_in_map;
+};
+
+struct PickOrder {
+  std::string pick_id;
+  std::string egg_id;
+  Eigen::Vector2d egg_in_map{0, 0};
+};
+
+/// What the shell is to do, in this order: journal, then goal and pick.
+struct MissionActions {
+  bool state_changed = false;  ///< write the state to the journal before anything else is done
+  std::optional<GoalOrder> goal;
+  std::optional<PickOrder> pick;
+  std::optional<std::string> picked_egg;  ///< tell the tracks
+};
+
+/// The mission as a pure state machine: no clock, no topics. Goals and picks are told again until
+/// they are answered, so that the death of any other process only delays. A state restored from the
+/// journal goes on where it was: an egg being picked is asked for again under the same pick id,
+/// which the arm answers once and for all.
+class Mission {
+ public:
+  Mission(const MissionConfig& config, const ApproachConfig& approach)
+      : config_(config), approach_(approach) {}
+
+  void start(MissionKind kind, const std::string& mission_id, std::vector<Waypoint> waypoints);
+  void pause();
+  void resume();
+  void abort(const std::string& reason);
+  /// From the journal.
+  void restore(MissionState state) { state_ = std::move(state); }
+
+  [[nodiscard]] MissionActions step(const MissionSnapshot& snapshot, const MapQueries& queries,
+                                    Time now);
+
+  [[nodiscard]] const MissionState& state() const { return state_; }
+
+ private:
+  struct Drive {
+    GoalOrder goal;
+    Time begun{};
+    Time told{};
+  };
+
+  void adopt_eggs(const MissionSnapshot& snapshot);
+  void step_waypoints(const MissionSnapshot& snapshot, Time now);
+  void step_ordering(const MissionSnapshot& snapshot, const MapQueries& queries);
+  void step_approach(const MissionSnapshot& snapshot, const MapQueries& queries, Time now);
+  void step_arrival(const MissionSnapshot& snapshot, Time now);
+  void step_picking(const MissionSnapshot& snapshot, Time now);
+  void step_returning(const MissionSnapshot& snapshot, Time now);
+  void stand_still(const MissionSnapshot& snapshot, Time now);
+  void begin_approach(const MissionSnapshot& snapshot, const MapQueries& queries, Time now);
+  void refresh_goal(const MissionSnapshot& snapshot, const EggTask& egg, const MapQueries& queries);
+  void attempt_failed(EggTask& egg, const std::string& reason);
+  void enter(MissionPhase phase, const std::string& detail);
+  void drive_to(const Pose2& pose, Time now);
+  void repeat_goal(Time now);
+  /// The navigators' answer to the present goal, a time-out included.
+  [[nodiscard]] NavigationReport drive_result(const MissionSnapshot& snapshot, Time now) const;
+  void end_search_or_mission();
+  void finish();
+
+  MissionConfig config_;
+  ApproachConfig approach_;
+  MissionState state_;
+  MissionActions actions_;
+  std::optional<Drive> drive_;
+  std::optional<Time> arrived_;
+  std::optional<Time> pick_begun_;
+  Time pick_told_{};
+  bool changed_ = false;
+};
+
+}  // namespace coop::sequencer

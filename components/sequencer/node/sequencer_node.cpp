@@ -1,0 +1,210 @@
+#include "sequencer/node/sequencer_node.hpp"
+
+#include "conversions/detections.hpp"
+#include "conversions/geometry.hpp"
+#include "conversions/navigation.hpp"
+#include "conversions/time.hpp"
+#include "coop_msgs/msg/PickResult.h"
+#include "core/robot/robot_model.hpp"
+#include "nav_msgs/msg/OccupancyGrid.h"
+#include "sequencer/node/mission_messages.hpp"
+
+namespace coop::sequencer {
+
+using coop_msgs::msg::NavigationStatus;
+using coop_msgs::msg::PickResult;
+using runtime::Qos;
+namespace MissionConstants = coop_msgs::msg::Mission_Constants;
+
+namespace {
+
+constexpr auto kStepPeriod = std::chrono::milliseconds(100);
+constexpr auto kStatusPeriod = std::chrono::seconds(1);
+constexpr auto kPatience = std::chrono::seconds(2);
+/// A pose older than this is no pose.
+constexpr auto kPoseAge = std::chrono::seconds(1);
+
+std::vector<Sighting> to_sightings(const std::vector<Detection>& detections,
+                                   const Pose3& camera_in_map) {
+  std::vector<Sighting> sightings;
+  for (const Detection& detection : detections) {
+    if (detection.class_id != "egg") continue;
+    const Eigen::Vector3d place = camera_in_map * detection.position;
+    const Eigen::Matrix3d covariance =
+        camera_in_map.linear() * detection.covariance * camera_in_map.linear().transpose();
+    sightings.push_back({place.head<2>(), covariance.topLeftCorner<2, 2>(), detection.score});
+  }
+  return sightings;
+}
+
+}  // namespace
+
+void SequencerNode::check(const Config& config) {
+  (void)robot::RobotModel::load(config.robot);
+}
+
+SequencerNode::SequencerNode(runtime::Node& node, const Config& config)
+    : node_(node),
+      config_(config),
+      sequencer_(config, Footprint(robot::RobotModel::load(config.robot).footprint()),
+                 node.random("ant_colony")),
+      journal_(node.options().run_dir / (node.name() + ".journal")),
+      transforms_(node.transforms()),
+      waiting_("map", kPatience, 50),
+      goal_publisher_(node.advertise<geometry_msgs::msg::PoseStamped>("goal_pose", Qos::kEvent)),
+      pick_publisher_(node.advertise<coop_msgs::msg::Pick>("pick", Qos::kEvent)),
+      status_publisher_(
+          node.advertise<coop_msgs::msg::MissionStatus>("mission_status", Qos::kStateLatched)) {
+  if (const auto state = Journal::read(node.options().run_dir / (node.name() + ".journal"))) {
+    sequencer_.restore(*state, node.now());
+    node.log().info("mission {} goes on: {} {}", state->mission_id, to_string(state->phase),
+                    state->detail);
+  }
+  node.subscribe<nav_msgs::msg::OccupancyGrid>(
+      "global_costmap", Qos::kStateLatched, [this](const nav_msgs::msg::OccupancyGrid& message) {
+        if (const auto grid = conversions::from_msg(message)) sequencer_.set_costmap(grid->value);
+      });
+  node.subscribe<coop_msgs::msg::Mission>(
+      "mission", Qos::kStateLatched,
+      [this](const coop_msgs::msg::Mission& message) { receive_mission(message); });
+  node.subscribe<vision_msgs::msg::Detection3DArray>(
+      "eggs", Qos::kEvent,
+      [this](const vision_msgs::msg::Detection3DArray& message) { receive_eggs(message); });
+  node.subscribe<NavigationStatus>(
+      "navigation_status", Qos::kStateLatched,
+      [this](const NavigationStatus& message) { receive_navigation(message); });
+  node.subscribe<PickResult>("pick_result", Qos::kEvent,
+                             [this](const PickResult& message) { pick_ = to_report(message); });
+  node.every(kStepPeriod, [this] { step(); });
+}
+
+void SequencerNode::receive_mission(const coop_msgs::msg::Mission& message) {
+  Mission& mission = sequencer_.mission();
+  switch (message.command()) {
+    case MissionConstants::PAUSE:
+      mission.pause();
+      return;
+    case MissionConstants::RESUME:
+      mission.resume();
+      return;
+    case MissionConstants::ABORT:
+      mission.abort("aborted by " +
+                    (message.mission_id().empty() ? "order" : message.mission_id()));
+      return;
+    default:
+      break;
+  }
+  // The order is latched: after a restart it arrives again, and the journal knows that mission
+  // already.
+  if (message.mission_id() == mission.state().mission_id) return;
+  if (message.kind() > MissionConstants::SURVEY) {
+    node_.log().error("mission {}: kind {} is not known", message.mission_id(), message.kind());
+    return;
+  }
+  std::vector<Waypoint> waypoints;
+  for (const auto& pose_message : message.waypoints()) {
+    const auto pose = conversions::pose3_from_msg(pose_message);
+    if (!pose) {
+      node_.log().error("mission {} refused: {}", message.mission_id(), pose.error());
+      return;
+    }
+    waypoints.push_back({"waypoint " + std::to_string(waypoints.size() + 1), to_pose2(*pose)});
+  }
+  if (waypoints.empty()) waypoints = config_.waypoint_list();
+  mission.start(static_cast<MissionKind>(message.kind()), message.mission_id(),
+                std::move(waypoints));
+}
+
+void SequencerNode::receive_eggs(const vision_msgs::msg::Detection3DArray& message) {
+  auto detections = conversions::from_msg(message);
+  if (!detections) {
+    if (node_.log().is_due("bad eggs", std::chrono::seconds(5))) {
+      node_.log().warning("detections ignored: {}", detections.error());
+    }
+    return;
+  }
+  if (detections->value.empty()) return;
+  waiting_.push(std::move(detections->value), detections->frame_id, detections->stamp);
+}
+
+void SequencerNode::receive_navigation(const NavigationStatus& message) {
+  if (const auto report = to_report(message)) navigation_[report->goal_id] = *report;
+  while (navigation_.size() > 20) navigation_.erase(navigation_.begin());  // ids rise with time
+}
+
+void SequencerNode::look_at_sightings() {
+  waiting_.process(transforms_, node_.now(),
+                   [this](const std::vector<Detection>& detections, const Pose3& camera_in_map) {
+                     sequencer_.see(to_sightings(detections, camera_in_map), node_.now());
+                   });
+}
+
+std::optional<Pose2> SequencerNode::robot_in_map() {
+  const auto newest = transforms_.newest_stamp("map", "base_link");
+  if (!newest || node_.now() - *newest > kPoseAge) return std::nullopt;
+  const auto pose = transforms_.lookup("map", "base_link", *newest);
+  if (!pose) return std::nullopt;
+  return to_pose2(*pose);
+}
+
+void SequencerNode::autostart() {
+  const Mission& mission = sequencer_.mission();
+  if (config_.autostart == "none" || !mission.state().mission_id.empty()) return;
+  const auto kind = config_.autostart == "survey" ? MissionKind::kSurvey : MissionKind::kCollect;
+  sequencer_.mission().start(kind, config_.autostart + "-1", config_.waypoint_list());
+}
+
+void SequencerNode::step() {
+  look_at_sightings();
+  if (unwritten_) {
+    const MissionActions held = *unwritten_;
+    unwritten_.reset();
+    carry_out(held);
+    if (unwritten_) return;
+  }
+  MissionSnapshot snapshot;
+  snapshot.robot_in_map = robot_in_map();
+  if (snapshot.robot_in_map && sequencer_.has_costmap()) autostart();
+  if (!navigation_.empty()) snapshot.navigation = navigation_.rbegin()->second;
+  snapshot.pick = pick_;
+  if (!snapshot.robot_in_map) {
+    node_.set_degraded("no pose of the robot in map");
+  } else {
+    node_.set_ready();
+  }
+  carry_out(sequencer_.step(snapshot, node_.now()));
+}
+
+void SequencerNode::carry_out(const MissionActions& actions) {
+  const MissionState& state = sequencer_.mission().state();
+  if (actions.state_changed) {
+    if (!journal_.append(state)) {
+      node_.set_degraded("the journal cannot be written: nothing is ordered until it can");
+      unwritten_ = actions;
+      return;
+    }
+    node_.log().info("{}: {}", to_string(state.phase), state.detail);
+  }
+  if (actions.goal) {
+    geometry_msgs::msg::PoseStamped goal = conversions::to_msg(Stamped<Pose2>{
+        Time(Duration(std::stoll(actions.goal->goal_id))), "map", actions.goal->pose_in_map});
+    goal_publisher_.publish(goal);
+  }
+  if (actions.pick) {
+    coop_msgs::msg::Pick pick;
+    pick.header(conversions::to_header(node_.now(), "map"));
+    pick.pick_id(actions.pick->pick_id);
+    pick.egg_id(actions.pick->egg_id);
+    pick.position().x(actions.pick->egg_in_map.x());
+    pick.position().y(actions.pick->egg_in_map.y());
+    pick_publisher_.publish(pick);
+  }
+  if (actions.state_changed || node_.now() - last_status_ >= kStatusPeriod) publish_status();
+}
+
+void SequencerNode::publish_status() {
+  last_status_ = node_.now();
+  status_publisher_.publish(to_msg(sequencer_.mission().state(), sequencer_.tracks(), node_.now()));
+}
+
+}  // namespace coop::sequencer

@@ -1,0 +1,52 @@
+#pragma once
+#include <map>
+
+#include "coop_msgs/msg/Mission.h"
+#include "coop_msgs/msg/MissionStatus.h"
+#include "coop_msgs/msg/NavigationStatus.h"
+#include "coop_msgs/msg/Pick.h"
+#include "core/detection.hpp"
+#include "geometry_msgs/msg/PoseStamped.h"
+#include "runtime/node.hpp"
+#include "runtime/stamped_queue.hpp"
+#include "sequencer/journal.hpp"
+#include "sequencer/sequencer.hpp"
+#include "vision_msgs/msg/Detection3DArray.h"
+
+namespace coop::sequencer {
+
+/// Shell of the sequencer: sightings into the map frame, answers of navigators and arm to the
+/// mission, its orders out, its state to the journal before anything is ordered.
+class SequencerNode {
+ public:
+  using Config = SequencerConfig;
+  static void check(const Config& config);
+  SequencerNode(runtime::Node& node, const Config& config);
+
+ private:
+  void receive_mission(const coop_msgs::msg::Mission& message);
+  void receive_eggs(const vision_msgs::msg::Detection3DArray& message);
+  void receive_navigation(const coop_msgs::msg::NavigationStatus& message);
+  void look_at_sightings();
+  void step();
+  void autostart();
+  [[nodiscard]] std::optional<Pose2> robot_in_map();
+  void carry_out(const MissionActions& actions);
+  void publish_status();
+
+  runtime::Node& node_;
+  Config config_;
+  Sequencer sequencer_;
+  Journal journal_;
+  const TransformBuffer& transforms_;
+  runtime::StampedQueue<std::vector<Detection>> waiting_;
+  std::map<std::string, NavigationReport> navigation_;  ///< by goal id
+  std::optional<PickReport> pick_;
+  std::optional<MissionActions> unwritten_;  ///< held back until the journal takes the state
+  Time last_status_{};
+  runtime::Publisher<geometry_msgs::msg::PoseStamped> goal_publisher_;
+  runtime::Publisher<coop_msgs::msg::Pick> pick_publisher_;
+  runtime::Publisher<coop_msgs::msg::MissionStatus> status_publisher_;
+};
+
+}  // namespace coop::sequencer

@@ -1,0 +1,271 @@
+#include "sequencer/mission.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/random.hpp"
+
+namespace coop::sequencer {
+namespace {
+
+/// A world that answers the mission: it drives at once, picks at once, unless told to fail.
+class MissionTest : public ::testing::Test {
+ protected:
+  MissionTest() : mission_(config(), {}) {
+    queries_.pose_cost = [](const Pose2&) { return std::optional<double>(1.0); };
+    queries_.order = [](const Pose2&, const std::vector<const EggTask*>& eggs) {
+      OrderedEggs ordered;
+      for (const EggTask* egg : eggs) ordered.order.push_back(egg->id);
+      ordered.cost = 5.0;
+      return ordered;
+    };
+  }
+
+  static MissionConfig config() {
+    MissionConfig config;
+    config.max_attempts = 2;
+    config.expected_eggs = 2;
+    return config;
+  }
+
+  void add_egg(const std::string& id, double x, double y) {
+    EggTrack track;
+    track.id = id;
+    track.egg_in_map = {x, y};
+    track.confirmed = true;
+    tracks_.push_back(track);
+  }
+
+  MissionActions step(double dt = 0.1) {
+    now_ += seconds(dt);
+    MissionSnapshot snapshot;
+    snapshot.robot_in_map = robot_;
+    snapshot.navigation = navigation_;
+    snapshot.pick = pick_;
+    snapshot.tracks = &tracks_;
+    const MissionActions actions = mission_.step(snapshot, queries_, now_);
+    if (actions.goal) goals_.push_back(*actions.goal);
+    if (actions.pick) picks_.push_back(*actions.pick);
+    if (actions.picked_egg) {
+      for (EggTrack& track : tracks_) track.picked |= track.id == *actions.picked_egg;
+    }
+    return actions;
+  }
+
+  /// Steps until the mission asks for something new; answers the number of goals.
+  void step_until_phase(MissionPhase phase, int limit = 100) {
+    for (int i = 0; i < limit && mission_.state().phase != phase; ++i) step();
+    ASSERT_EQ(mission_.state().phase, phase);
+  }
+
+  void arrive() {
+    robot_ = goals_.back().pose_in_map;
+    navigation_ = {goals_.back().goal_id, NavigationReport::State::kArrived, ""};
+  }
+  void fail_to_arrive(const std::string& reason) {
+    navigation_ = {goals_.back().goal_id, NavigationReport::State::kFailed, reason};
+  }
+  void answer_pick(bool picked, const std::string& reason = "") {
+    pick_ = PickReport{mission_.state().pick_id, picked, true, reason};
+  }
+
+  Mission mission_;
+  MapQueries queries_;
+  Time now_ = time_from_seconds(100);
+  std::optional<Pose2> robot_ = Pose2{0, 0, 0};
+  std::optional<NavigationReport> navigation_;
+  std::optional<PickReport> pick_;
+  std::vector<EggTrack> tracks_;
+  std::vector<GoalOrder> goals_;
+  std::vector<PickOrder> picks_;
+};
+
+TEST_F(MissionTest, ASurveyDrivesItsWaypointsInOrderAndReportsTheOnesItMissed) {
+  mission_.start(MissionKind::kSurvey, "m", {{"gate", {1, 0, 0}}, {"pond", {2, 0, 0}}});
+  step();
+  ASSERT_EQ(goals_.size(), 1U);
+  EXPECT_DOUBLE_EQ(goals_[0].pose_in_map.x, 1);
+  arrive();
+  step();
+  step();
+  ASSERT_EQ(goals_.size(), 2U);
+  fail_to_arrive("no path");
+  step_until_phase(MissionPhase::kDone);
+  EXPECT_EQ(mission_.state().missed_waypoints, std::vector<std::string>{"pond: no path"});
+  EXPECT_EQ(mission_.state().detail, "1 of 2 waypoints reached");
+}
+
+TEST_F(MissionTest, TwoEggsAreSearchedOrderedDrivenToAndPicked) {
+  mission_.start(MissionKind::kCollect, "m", {{"gate", {1, 0, 0}}});
+  step();
+  add_egg("egg1", 3, 0);
+  add_egg("egg2", 5, 0);
+  step_until_phase(MissionPhase::kDriving);
+  EXPECT_EQ(mission_.state().current_egg, "egg1");
+  for (const char* egg : {"egg1", "egg2"}) {
+    step_until_phase(MissionPhase::kDriving);
+    step();
+    arrive();
+    step_until_phase(MissionPhase::kPicking);
+    step();
+    ASSERT_EQ(picks_.back().egg_id, egg);
+    answer_pick(true);
+    step();
+  }
+  step_until_phase(MissionPhase::kDone);
+  EXPECT_EQ(mission_.state().detail, "2 of 2 eggs picked");
+  EXPECT_EQ(mission_.state().order, (std::vector<std::string>{"egg1", "egg2"}));
+}
+
+TEST_F(MissionTest, TheGoalOfAnEggIsItsApproachPose) {
+  mission_.start(MissionKind::kCollect, "m", {});
+  add_egg("egg1", 3, 0);
+  add_egg("egg2", 9, 0);
+  step_until_phase(MissionPhase::kDriving);
+  step();
+  EXPECT_NEAR(goals_.back().pose_in_map.x, 3 - 0.92, 1e-12);
+}
+
+TEST_F(MissionTest, AGoalIsToldAgainUntilItIsAnswered) {
+  mission_.start(MissionKind::kSurvey, "m", {{"gate", {1, 0, 0}}});
+  step();
+  for (int i = 0; i < 50; ++i) step();
+  EXPECT_GE(goals_.size(), 3U);
+  for (const GoalOrder& goal : goals_) EXPECT_EQ(goal.goal_id, goals_.front().goal_id);
+}
+
+TEST_F(MissionTest, AnAnswerToAnotherGoalIsNotAnAnswer) {
+  mission_.start(MissionKind::kSurvey, "m", {{"gate", {1, 0, 0}}});
+  step();
+  navigation_ = {"17", NavigationReport::State::kArrived, ""};
+  step();
+  EXPECT_EQ(mission_.state().next_waypoint, 0U);
+}
+
+TEST_F(MissionTest, AnEggThatCannotBeReachedIsTriedFromAnotherSideAndThenReported) {
+  mission_.start(MissionKind::kCollect, "m", {});
+  add_egg("egg1", 3, 0);
+  step_until_phase(MissionPhase::kDriving);
+  step();
+  const double first = goals_.back().pose_in_map.yaw;
+  fail_to_arrive("no path");
+  step_until_phase(MissionPhase::kOrdering);
+  step_until_phase(MissionPhase::kDriving);
+  step();
+  EXPECT_GT(std::abs(angle_difference(goals_.back().pose_in_map.yaw, first)), 0.3);
+  fail_to_arrive("stuck");
+  step_until_phase(MissionPhase::kDone);
+  EXPECT_EQ(mission_.state().eggs[0].phase, EggPhase::kFailed);
+  EXPECT_EQ(mission_.state().eggs[0].reason, "stuck");
+}
+
+TEST_F(MissionTest, AnEggOutOfReachOnArrivalIsApproachedAgain) {
+  mission_.start(MissionKind::kCollect, "m", {});
+  add_egg("egg1", 3, 0);
+  step_until_phase(MissionPhase::kDriving);
+  step();
+  arrive();
+  robot_ = Pose2{2.3, 0, 0};  // the egg lies 0.70 m ahead
+  for (int i = 0; i < 10 && mission_.state().eggs[0].reason.empty(); ++i) step();
+  EXPECT_NE(mission_.state().eggs[0].reason.find("out of reach"), std::string::npos);
+  EXPECT_EQ(mission_.state().eggs[0].attempts, 1);
+}
+
+TEST_F(MissionTest, APickIsToldAgainUnderItsIdWhileTheArmIsSilentOrBusy) {
+  mission_.start(MissionKind::kCollect, "m", {});
+  add_egg("egg1", 3, 0);
+  step_until_phase(MissionPhase::kDriving);
+  step();
+  arrive();
+  step_until_phase(MissionPhase::kPicking);
+  step();
+  pick_ = PickReport{mission_.state().pick_id, false, false, "busy"};
+  for (int i = 0; i < 100; ++i) step();
+  ASSERT_GE(picks_.size(), 3U);
+  std::set<std::string> ids;
+  for (const PickOrder& pick : picks_) ids.insert(pick.pick_id);
+  EXPECT_EQ(ids.size(), 1U);
+}
+
+TEST_F(MissionTest, AnEggSeenOnTheWayIsCollectedToo) {
+  mission_.start(MissionKind::kCollect, "m", {});
+  add_egg("egg1", 3, 0);
+  step_until_phase(MissionPhase::kDriving);
+  add_egg("egg2", 6, 0);
+  for (int i = 0; i < 2; ++i) {
+    step_until_phase(MissionPhase::kDriving);
+    step();
+    arrive();
+    step_until_phase(MissionPhase::kPicking);
+    step();
+    answer_pick(true);
+    step();
+  }
+  step_until_phase(MissionPhase::kDone);
+  EXPECT_EQ(mission_.state().count(EggPhase::kPicked), 2);
+}
+
+TEST_F(MissionTest, PauseStopsTheRobotWhereItIsAndResumeGoesOn) {
+  mission_.start(MissionKind::kSurvey, "m", {{"gate", {5, 0, 0}}});
+  step();
+  robot_ = Pose2{2, 1, 0.5};
+  mission_.pause();
+  step();
+  EXPECT_EQ(goals_.back().pose_in_map, *robot_);
+  mission_.resume();
+  step();
+  EXPECT_DOUBLE_EQ(goals_.back().pose_in_map.x, 5);
+}
+
+TEST_F(MissionTest, WithoutAPoseNothingIsOrdered) {
+  robot_.reset();
+  mission_.start(MissionKind::kSurvey, "m", {{"gate", {5, 0, 0}}});
+  step();
+  EXPECT_TRUE(goals_.empty());
+}
+
+TEST_F(MissionTest, WhateverIsAnsweredNoEggIsLostOrPickedTwice) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    RandomStream random(seed, "answers");
+    mission_ = Mission(config(), {});
+    tracks_.clear();
+    goals_.clear();
+    picks_.clear();
+    std::map<std::string, int> picked;
+    mission_.start(MissionKind::kCollect, "m", {{"gate", {1, 0, 0}}});
+    for (int i = 0; i < 2000 && mission_.state().is_active(); ++i) {
+      if (random.uniform() < 0.01 && tracks_.size() < 6) {
+        add_egg("egg" + std::to_string(tracks_.size() + 1), random.uniform(2, 9), 1);
+      }
+      if (random.uniform() < 0.02) {  // the process dies and comes back from its journal
+        const MissionState saved = mission_.state();
+        mission_ = Mission(config(), {});
+        mission_.restore(saved);
+      }
+      if (!goals_.empty() && random.uniform() < 0.3) {
+        if (random.uniform() < 0.7) {
+          arrive();
+        } else {
+          fail_to_arrive("chance");
+        }
+      }
+      if (!mission_.state().pick_id.empty() && random.uniform() < 0.3) {
+        answer_pick(random.uniform() < 0.6, "chance");
+      }
+      if (const auto actions = step(0.3); actions.picked_egg) ++picked[*actions.picked_egg];
+    }
+    ASSERT_FALSE(mission_.state().is_active()) << "seed " << seed;
+    for (const EggTask& egg : mission_.state().eggs) {
+      const bool was_picked = egg.phase == EggPhase::kPicked;
+      EXPECT_TRUE(was_picked || egg.phase == EggPhase::kFailed) << "seed " << seed;
+      EXPECT_EQ(picked[egg.id], was_picked ? 1 : 0) << "seed " << seed;
+      EXPECT_EQ(egg.reason.empty(), was_picked) << "seed " << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace coop::sequencer
