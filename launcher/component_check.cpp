@@ -53,6 +53,7 @@ Result<RunningCheck> begin_check(const PlannedComponent& component) {
   const auto pid = start_process({.executable = component.executable,
                                   .arguments = std::move(arguments),
                                   .environment = component.environment,
+                                  .folder = component.folder,
                                   .output = write_end.get()});
   if (!pid) return fail(pid.error());
   return RunningCheck{.component = &component,

@@ -85,6 +85,10 @@ Variables make_variables(const Launch& launch, const Places& places,
   return variables;
 }
 
+std::string in_full(const std::filesystem::path& file) {
+  return std::filesystem::absolute(file).lexically_normal().string();
+}
+
 class Planner {
  public:
   Planner(const Launch& launch, const Places& places, const std::filesystem::path& run_folder)
@@ -100,6 +104,7 @@ class Planner {
     planned.name = component.name;
     planned.where = component.where;
     planned.executable = executable_of(component);
+    planned.folder = std::filesystem::absolute(places_.share);
     planned.restart = declared.restart;
     planned.log = declared.log;
     planned.sends_heartbeat = declared.health == "heartbeat";
@@ -114,8 +119,7 @@ class Planner {
     }
     if (!launch_.dds.profiles.empty()) {
       const auto file = file_of(launch_.dds.profiles, launch_.file.string() + ": dds.profiles");
-      planned.environment.push_back("FASTRTPS_DEFAULT_PROFILES_FILE=" +
-                                    std::filesystem::absolute(file).string());
+      planned.environment.push_back("FASTRTPS_DEFAULT_PROFILES_FILE=" + in_full(file));
     }
     for (const auto& parameter : declared.parameters) {
       const std::string where = parameter.where + ": " + component.name + ": " + parameter.key;
@@ -154,11 +158,12 @@ class Planner {
                                       const std::filesystem::path& executable) const {
     const std::string& declared = component.value.config;
     if (!declared.empty()) {
-      return file_of(declared, component.where + ": " + component.name + ": config").string();
+      return in_full(file_of(declared, component.where + ": " + component.name + ": config"));
     }
     const std::filesystem::path usual =
         std::filesystem::path("config") / (executable.filename().string() + ".yaml");
-    return find_file(usual, {places_.share}).string();
+    const auto file = find_file(usual, {places_.share});
+    return file.empty() ? std::string() : in_full(file);
   }
 
   [[nodiscard]] std::vector<std::string> arguments_of(const Named& component,

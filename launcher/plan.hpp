@@ -14,6 +14,8 @@ struct PlannedComponent {
   std::string name;
   std::string where;  ///< file:line of its declaration
   std::filesystem::path executable;
+  std::filesystem::path folder =
+      ".";  ///< it runs in the share folder: names of Coop's own files are relative to it
   std::vector<std::string> arguments;
   std::vector<std::string> environment;  ///< NAME=value, on top of the launcher's own
   std::vector<std::size_t> after;        ///< places in Plan::components, all smaller than its own

@@ -40,10 +40,16 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return out;
 }
 
+struct Image {
+  const char* path;
+  char* const* argv;
+  char* const* envp;
+  const char* folder;
+};
+
 /// Between fork and exec in a process that may have had threads: only async-signal-safe calls, no
 /// allocation.
-[[noreturn]] void become(const char* path, char* const* argv, char* const* envp, int input,
-                         int output, int failure, pid_t parent) {
+[[noreturn]] void become(const Image& image, int input, int output, int failure, pid_t parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);
@@ -51,12 +57,12 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  if (dup2(input, STDIN_FILENO) >= 0 && dup2(output, STDOUT_FILENO) >= 0 &&
-      dup2(output, STDERR_FILENO) >= 0) {
+  if (chdir(image.folder) == 0 && dup2(input, STDIN_FILENO) >= 0 &&
+      dup2(output, STDOUT_FILENO) >= 0 && dup2(output, STDERR_FILENO) >= 0) {
     // Also what we have inherited or a library has opened. An old kernel refuses; ours are marked
     // anyway.
     close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
-    execve(path, argv, envp);
+    execve(image.path, image.argv, image.envp);
   }
   const int reason = errno;
   [[maybe_unused]] const ssize_t written = write(failure, &reason, sizeof reason);
@@ -79,6 +85,7 @@ std::string ExitStatus::text() const {
 
 Result<pid_t> start_process(const ProcessRequest& request) {
   std::string path = request.executable.string();
+  const std::string folder = request.folder.string();
   std::vector<std::string> arguments = request.arguments;
   arguments.insert(arguments.begin(), path);
   std::vector<std::string> environment = merged_environment(request.environment);
@@ -95,8 +102,8 @@ Result<pid_t> start_process(const ProcessRequest& request) {
   const pid_t pid = fork();
   if (pid < 0) return fail(std::string("fork: ") + strerror(errno));
   if (pid == 0) {
-    become(path.c_str(), argv.data(), envp.data(), input.get(), request.output, failure_write.get(),
-           parent);
+    const Image image{path.c_str(), argv.data(), envp.data(), folder.c_str()};
+    become(image, input.get(), request.output, failure_write.get(), parent);
   }
   setpgid(pid, pid);  // in both processes, so that it holds whoever runs first
   failure_write.reset();

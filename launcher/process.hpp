@@ -24,6 +24,7 @@ struct ProcessRequest {
   std::filesystem::path executable;
   std::vector<std::string> arguments;    ///< without the program's name
   std::vector<std::string> environment;  ///< NAME=value, replacing or extending our own
+  std::filesystem::path folder = ".";    ///< working directory
   int output = -1;                       ///< becomes stdout and stderr; stays open here
 };
 

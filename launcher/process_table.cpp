@@ -50,6 +50,7 @@ Result<pid_t> ProcessTable::start(const PlannedComponent& component) {
   const Result<pid_t> pid = start_process({.executable = component.executable,
                                            .arguments = component.arguments,
                                            .environment = component.environment,
+                                           .folder = component.folder,
                                            .output = output.get()});
   if (!pid) {
     entry.output.reset();

@@ -64,6 +64,7 @@ Program::Program(const std::string& name, const std::vector<std::string>& argume
   const auto pid = launcher::start_process({.executable = program_path(name),
                                             .arguments = arguments,
                                             .environment = {},
+                                            .folder = ".",
                                             .output = file.get()});
   if (!pid) throw std::runtime_error(pid.error());
   pid_ = *pid;
