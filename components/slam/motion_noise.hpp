@@ -10,12 +10,12 @@ namespace coop::slam {
 /// distance driven and the angle turned, so that one step and the same way cut into many give the
 /// same spread.
 struct MotionNoiseConfig {
-  double position_per_distance = 0.05;  ///< m / sqrt(m)
-  double position_per_turn = 0.05;      ///< m / sqrt(rad)
-  double yaw_per_distance = 0.05;       ///< rad / sqrt(m)
-  double yaw_per_turn = 0.05;           ///< rad / sqrt(rad)
-  double min_position = 0.01;           ///< m, even without motion
-  double min_yaw = 0.005;               ///< rad, even without motion
+  double position_per_distance = 0.1;  ///< m / sqrt(m)
+  double position_per_turn = 0.08;     ///< m / sqrt(rad)
+  double yaw_per_distance = 0.1;       ///< rad / sqrt(m)
+  double yaw_per_turn = 0.08;          ///< rad / sqrt(rad)
+  double min_position = 0.01;          ///< m, even without motion
+  double min_yaw = 0.005;              ///< rad, even without motion
 
   void describe(config::Fields& fields);
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace coop::slam {
@@ -13,12 +14,24 @@ void ScanMatcherConfig::describe(config::Fields& fields) {
   fields.section("field", field);
   fields.number("likelihood_gain", likelihood_gain,
                 {.help = "weight of a beam's log-likelihood", .min = 1e-4, .max = 10.0});
+  fields.number("weight_gain", weight_gain,
+                {.help = "the same in the weight of a particle", .min = 1e-4, .max = 10.0});
   fields.number("linear_step", linear_step,
                 {.unit = "m", .help = "first step of the search", .min = 0.001, .max = 2.0});
   fields.number("angular_step", angular_step,
                 {.unit = "rad", .help = "first step of the search", .min = 0.001, .max = 1.0});
   fields.integer("refinements", refinements,
                  {.help = "times the steps are halved", .min = 0, .max = 12});
+  fields.number("poor_match", poor_match,
+                {.help = "mean log-likelihood a beam below which the wide search starts",
+                 .min = -10.0,
+                 .max = 0.0});
+  fields.number(
+      "wide_position", wide_position,
+      {.unit = "m", .help = "reach of the wide search to each side", .min = 0.0, .max = 5.0});
+  fields.number(
+      "wide_yaw", wide_yaw,
+      {.unit = "rad", .help = "reach of the wide search to each side", .min = 0.0, .max = 3.2});
   fields.number("search_margin", search_margin,
                 {.unit = "m", .help = "of the field beyond the scan", .min = 0.1, .max = 10.0});
   fields.number("sample_spread", sample_spread,
@@ -35,9 +48,11 @@ Proposal ScanMatcher::match(const TileMap& map, const ScanPoints& points,
     proposal.covariance = odometry_stddev.array().square().matrix().asDiagonal();
     return proposal;
   }
-  const Eigen::Vector3d mode = climb();
+  Eigen::Vector3d mode = climb(Eigen::Vector3d::Zero());
+  const auto beams = static_cast<double>(points_.size());
+  if (likelihood(mode) < config_.poor_match * beams) mode = search_wide(mode);
   proposal.matched = true;
-  proposal.mean_likelihood = likelihood(mode) / static_cast<double>(points_.size());
+  proposal.mean_likelihood = likelihood(mode) / beams;
   sample_around(mode, information_at(mode), proposal);
   return proposal;
 }
@@ -61,14 +76,15 @@ void ScanMatcher::prepare(const TileMap& map, const ScanPoints& points, const Po
   field_.build(map, map.cell_of(low - margin), map.cell_of(high + margin));
 }
 
-double ScanMatcher::likelihood(const Eigen::Vector3d& deviation) const {
+double ScanMatcher::likelihood(const Eigen::Vector3d& deviation, std::size_t stride) const {
   const Pose2 pose = predicted_ * Pose2{deviation.x(), deviation.y(), deviation.z()};
   const auto c = static_cast<float>(std::cos(pose.yaw));
   const auto s = static_cast<float>(std::sin(pose.yaw));
   const auto x = static_cast<float>(pose.x * inverse_resolution_);
   const auto y = static_cast<float>(pose.y * inverse_resolution_);
   float sum = 0.0F;
-  for (const auto& point : points_) {
+  for (std::size_t i = 0; i < points_.size(); i += stride) {
+    const Eigen::Vector2f& point = points_[i];
     sum += field_.at(x + c * point.x() - s * point.y(), y + s * point.x() + c * point.y());
   }
   return static_cast<double>(sum);
@@ -79,8 +95,8 @@ double ScanMatcher::objective(const Eigen::Vector3d& deviation) const {
   return config_.likelihood_gain * likelihood(deviation) + prior;
 }
 
-Eigen::Vector3d ScanMatcher::climb() const {
-  Eigen::Vector3d best = Eigen::Vector3d::Zero();
+Eigen::Vector3d ScanMatcher::climb(const Eigen::Vector3d& start) const {
+  Eigen::Vector3d best = start;
   double best_value = objective(best);
   Eigen::Vector3d step{config_.linear_step, config_.linear_step, config_.angular_step};
   for (int level = 0; level <= config_.refinements; ++level, step *= 0.5) {
@@ -101,6 +117,48 @@ Eigen::Vector3d ScanMatcher::climb() const {
         }
       }
       best = candidate_best;
+    }
+  }
+  return best;
+}
+
+/// Where odometry misled the climb: the best of a lattice of poses, seen with few beams, are starts
+/// of climbs of their own.
+Eigen::Vector3d ScanMatcher::search_wide(const Eigen::Vector3d& mode) const {
+  constexpr double kLinearStep = 0.15;   // m, within the basin of a wall in the field
+  constexpr double kAngularStep = 0.06;  // rad, the same at a few metres
+  constexpr std::size_t kStarts = 4;
+  struct Start {
+    double value;
+    Eigen::Vector3d deviation;
+  };
+  const std::size_t stride = std::max<std::size_t>(1, points_.size() / 60);
+  const int side = static_cast<int>(config_.wide_position / kLinearStep);
+  const int turns = static_cast<int>(config_.wide_yaw / kAngularStep);
+  std::array<Start, kStarts> starts;
+  starts.fill({-std::numeric_limits<double>::infinity(), mode});
+  for (int turn = -turns; turn <= turns; ++turn) {
+    for (int x = -side; x <= side; ++x) {
+      for (int y = -side; y <= side; ++y) {
+        const Eigen::Vector3d deviation{x * kLinearStep, y * kLinearStep, turn * kAngularStep};
+        const double prior = -0.5 * deviation.cwiseAbs2().dot(prior_information_);
+        const double value =
+            config_.likelihood_gain * static_cast<double>(stride) * likelihood(deviation, stride) +
+            prior;
+        if (value <= starts.back().value) continue;
+        starts.back() = {value, deviation};
+        std::ranges::sort(starts, std::greater{}, &Start::value);
+      }
+    }
+  }
+  Eigen::Vector3d best = mode;
+  double best_value = objective(mode);
+  for (const Start& start : starts) {
+    const Eigen::Vector3d candidate = climb(start.deviation);
+    const double value = objective(candidate);
+    if (value > best_value) {
+      best_value = value;
+      best = candidate;
     }
   }
   return best;
@@ -168,7 +226,8 @@ void ScanMatcher::sample_around(const Eigen::Vector3d& mode, const Eigen::Matrix
   proposal.covariance = covariance;
   const double volume = std::abs(axes.determinant()) * std::pow(config_.sample_spread, 3);
   const double prior_norm = 0.5 * std::log(prior.determinant());
-  proposal.log_evidence = largest + std::log(sum) + std::log(volume) + prior_norm;
+  proposal.log_evidence = config_.weight_gain / config_.likelihood_gain *
+                          (largest + std::log(sum) + std::log(volume) + prior_norm);
 }
 
 }  // namespace coop::slam

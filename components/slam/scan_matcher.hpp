@@ -11,13 +11,16 @@ namespace coop::slam {
 
 struct ScanMatcherConfig {
   MatchFieldConfig field;
-  double likelihood_gain =
-      0.1;                     ///< beams are not independent: their log-likelihoods count this much
-  double linear_step = 0.08;   ///< m, first step of the search
-  double angular_step = 0.04;  ///< rad
-  int refinements = 6;         ///< times the steps are halved
-  double search_margin = 0.5;  ///< m, of the field beyond the scan at the predicted pose
-  double sample_spread = 1.5;  ///< deviations between samples around the maximum
+  double likelihood_gain = 3.0;  ///< weight of a beam's log-likelihood against odometry
+  double weight_gain = 0.1;      ///< the same in a particle's weight: beams are not independent
+  double linear_step = 0.08;     ///< m, first step of the search
+  double angular_step = 0.04;    ///< rad
+  int refinements = 6;           ///< times the steps are halved
+  double poor_match = -0.6;      ///< mean log-likelihood a beam below which the wide search starts
+  double wide_position = 0.6;    ///< m, the wide search's reach to each side
+  double wide_yaw = 0.6;         ///< rad
+  double search_margin = 0.5;    ///< m, of the field beyond the scan at the predicted pose
+  double sample_spread = 1.5;    ///< deviations between samples around the maximum
 
   void describe(config::Fields& fields);
 };
@@ -52,8 +55,10 @@ class ScanMatcher {
  private:
   void prepare(const TileMap& map, const ScanPoints& points, const Pose2& predicted);
   [[nodiscard]] double objective(const Eigen::Vector3d& deviation) const;
-  [[nodiscard]] double likelihood(const Eigen::Vector3d& deviation) const;
-  [[nodiscard]] Eigen::Vector3d climb() const;
+  /// Of every `stride`-th point.
+  [[nodiscard]] double likelihood(const Eigen::Vector3d& deviation, std::size_t stride = 1) const;
+  [[nodiscard]] Eigen::Vector3d climb(const Eigen::Vector3d& start) const;
+  [[nodiscard]] Eigen::Vector3d search_wide(const Eigen::Vector3d& mode) const;
   [[nodiscard]] Eigen::Matrix3d information_at(const Eigen::Vector3d& mode) const;
   void sample_around(const Eigen::Vector3d& mode, const Eigen::Matrix3d& information,
                      Proposal& proposal) const;

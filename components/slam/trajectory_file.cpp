@@ -14,8 +14,9 @@ std::string to_text(std::span<const StampedPose2> trajectory) {
   std::array<char, 128> line{};
   for (const auto& [stamp, pose] : trajectory) {
     const auto nanoseconds = static_cast<long long>(to_nanoseconds(stamp));
-    std::snprintf(line.data(), line.size(), "%lld.%09lld %.6f %.6f %.6f\n", nanoseconds / 1'000'000'000,
-                  nanoseconds % 1'000'000'000, pose.x, pose.y, pose.yaw);
+    std::snprintf(line.data(), line.size(), "%lld.%09lld %.6f %.6f %.6f\n",
+                  nanoseconds / 1'000'000'000, nanoseconds % 1'000'000'000, pose.x, pose.y,
+                  pose.yaw);
     text += line.data();
   }
   return text;

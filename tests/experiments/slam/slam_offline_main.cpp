@@ -1,6 +1,7 @@
-// slam_offline LOG.clf -o DIR [--relations FILE] [--particles N] [--seed S] [--threads T] [--config
-// FILE] [--set key=value]... Maps a CARMEN log without any middleware, for measurements: DIR gets
-// map.pgm, map.yaml and trajectory.txt.
+// slam_offline LOG.clf [-o DIR] [--relations FILE] [--particles N] [--seed S] [--threads T]
+//              [--interpolate-odometry] [--config FILE] [--set key=value]...
+// Maps a CARMEN log without any middleware, for measurements. DIR gets map.pgm, map.yaml,
+// trajectory.txt and the poses at the scans used: scan_odometry.txt and scan_poses.txt.
 #include <chrono>
 #include <exception>
 #include <iostream>
@@ -26,6 +27,7 @@ struct Arguments {
   std::string relations;
   std::uint64_t seed = 1;
   int threads = 2;
+  bool interpolate_odometry = false;  ///< the scans' own odometry is ignored
   config::Document document;
 };
 
@@ -44,6 +46,8 @@ Arguments parse(int argc, char** argv) {
       arguments.relations = value();
     else if (word == "--seed")
       arguments.seed = std::stoull(value());
+    else if (word == "--interpolate-odometry")
+      arguments.interpolate_odometry = true;
     else if (word == "--threads")
       arguments.threads = std::stoi(value());
     else if (word == "--particles")
@@ -59,8 +63,8 @@ Arguments parse(int argc, char** argv) {
   }
   if (arguments.log.empty())
     throw std::runtime_error(
-        "usage: slam_offline LOG.clf -o DIR [--relations FILE] [--particles N] [--seed S] "
-        "[--threads T] [--config FILE] [--set key=value]...");
+        "usage: slam_offline LOG.clf [-o DIR] [--relations FILE] [--particles N] [--seed S] "
+        "[--threads T] [--interpolate-odometry] [--config FILE] [--set key=value]...");
   for (const auto& assignment : assignments) arguments.document.set(assignment);
   return arguments;
 }
@@ -73,16 +77,24 @@ struct Run {
   std::size_t resamplings = 0;
 };
 
-Run process(const std::vector<carmen::Record>& records, slam::ParticleFilter& filter) {
+Run process(const std::vector<carmen::Record>& records, bool interpolate_odometry,
+            slam::ParticleFilter& filter) {
   Run run;
   for (const auto& record : records) {
     if (const auto* odometry = std::get_if<carmen::OdometryRecord>(&record)) {
       run.odometry.push_back({odometry->stamp, odometry->robot_in_odom});
-      run.all_odometry.push_back(run.odometry.back());
+    }
+  }
+  for (const auto& record : records) {
+    if (const auto* odometry = std::get_if<carmen::OdometryRecord>(&record)) {
+      run.all_odometry.push_back({odometry->stamp, odometry->robot_in_odom});
     } else if (const auto* laser = std::get_if<carmen::LaserRecord>(&record)) {
-      run.all_odometry.push_back({laser->stamp, laser->robot_in_odom});
+      const Pose2 base_in_odom = interpolate_odometry
+                                     ? experiments::pose_at(run.odometry, laser->stamp)
+                                     : laser->robot_in_odom;
+      run.all_odometry.push_back({laser->stamp, base_in_odom});
       const auto outcome =
-          filter.update(carmen::to_scan(*laser, "laser_link"), laser->robot_in_odom, Pose2{});
+          filter.update(carmen::to_scan(*laser, "laser_link"), base_in_odom, Pose2{});
       ++run.scans;
       run.used += outcome.used ? 1 : 0;
       run.resamplings += outcome.resampled ? 1 : 0;
@@ -101,7 +113,7 @@ int main(int argc, char** argv) try {
   slam::ForkJoin workers(arguments.threads);
   slam::ParticleFilter filter(config, arguments.seed, workers);
   const auto start = std::chrono::steady_clock::now();
-  const Run run = process(records, filter);
+  const Run run = process(records, arguments.interpolate_odometry, filter);
   const double took =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const auto nodes = filter.trajectory();
@@ -125,6 +137,14 @@ int main(int argc, char** argv) try {
     const std::filesystem::path folder = arguments.folder;
     map::save_map(filter.map(), folder / "map");
     write_file_atomically(folder / "trajectory.txt", slam::to_text(trajectory));
+    std::vector<StampedPose2> odometry_nodes;
+    std::vector<StampedPose2> map_nodes;
+    for (const auto& node : nodes) {
+      odometry_nodes.push_back({node.stamp, node.base_in_odom});
+      map_nodes.push_back({node.stamp, node.base_in_map});
+    }
+    write_file_atomically(folder / "scan_odometry.txt", slam::to_text(odometry_nodes));
+    write_file_atomically(folder / "scan_poses.txt", slam::to_text(map_nodes));
   }
   return 0;
 } catch (const std::exception& error) {
