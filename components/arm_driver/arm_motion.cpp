@@ -1,5 +1,6 @@
 #include "arm_driver/arm_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -43,6 +44,8 @@ void ArmMotionConfig::describe(config::Fields& fields) {
       {.unit = "m", .help = "of the cup on an egg, above the floor", .min = 0, .max = 0.3});
   fields.number("approach_height", approach_height,
                 {.unit = "m", .help = "above the contact", .min = 0.02, .max = 0.5});
+  fields.number("lift_height", lift_height,
+                {.unit = "m", .help = "above the contact, with the egg", .min = 0.02, .max = 0.5});
   fields.number("basket_clearance", basket_clearance,
                 {.unit = "m", .help = "above the point of release", .min = 0, .max = 0.5});
   fields.number("search_radius", search_radius,
@@ -78,7 +81,7 @@ Result<JointVector, IkError> ArmMotion::posture_at(const Vector3d& point) const 
 }
 
 Result<std::vector<Vector3d>, IkError> ArmMotion::touches(const Eigen::Vector2d& egg) const {
-  const Vector3d rise(0, 0, config_.approach_height);
+  const Vector3d rise(0, 0, std::max(config_.approach_height, config_.lift_height));
   std::vector<Vector3d> points;
   for (int i = 0; i <= config_.search_points; ++i) {
     Vector3d point(egg.x(), egg.y(), config_.contact_height);

@@ -16,6 +16,7 @@ struct ArmMotionConfig {
   std::vector<double> home{0.0, -0.9, 1.0, 0.0, 1.2, 0.0};
   double contact_height = 0.045;   ///< m above the floor: the cup's rim on an egg that lies
   double approach_height = 0.12;   ///< m above the contact
+  double lift_height = 0.16;       ///< m above the contact, before the egg goes sideways
   double basket_clearance = 0.08;  ///< m above the point of release
   double search_radius = 0.030;    ///< m around the place told, where no egg was found at it
   int search_points = 6;           ///< on that circle; 0: no search

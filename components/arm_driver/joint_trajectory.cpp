@@ -4,42 +4,49 @@
 #include <cmath>
 
 namespace coop::arm_driver {
-namespace {
-
-/// The quintic and its derivatives after s.
-struct Progress {
-  double u = 0.0;
-  double du = 0.0;
-  double ddu = 0.0;
-};
-
-Progress progress_at(double s) {
-  const double s2 = s * s;
-  return {s2 * s * (10.0 - 15.0 * s + 6.0 * s2), 30.0 * s2 * (1.0 - 2.0 * s + s2),
-          60.0 * s * (1.0 - 3.0 * s + 2.0 * s2)};
-}
-
-}  // namespace
 
 JointTrajectory::JointTrajectory(std::vector<JointVector> path, const MotionLimits& limits)
     : path_(std::move(path)) {
-  // Peaks of a motion that lasts 1 s; one of T seconds has 1/T of the speed, 1/T^2 of the
-  // acceleration. They are sampled: the limits are kept with a margin of a percent.
-  constexpr double kMargin = 1.01;
-  const int samples = 100 * static_cast<int>(std::max<std::size_t>(path_.size() - 1, 1));
-  double by_velocity = 0.0;
-  double by_acceleration = 0.0;
+  // The steepest and the most curved place of the path for each joint; sampled where it is bent.
+  JointVector slope = JointVector::Zero(path_.front().size());
+  JointVector curvature = slope;
+  const int samples = path_.size() > 2 ? 50 * static_cast<int>(path_.size() - 1) : 1;
   for (int i = 0; i <= samples; ++i) {
-    const Progress progress = progress_at(static_cast<double>(i) / samples);
-    const PathPoint point = path_at(progress.u);
-    const auto velocity = point.slope.array() * progress.du;
-    const auto acceleration =
-        point.curvature.array() * progress.du * progress.du + point.slope.array() * progress.ddu;
-    by_velocity = std::max(by_velocity, (velocity.abs() / limits.velocity.array()).maxCoeff());
-    by_acceleration =
-        std::max(by_acceleration, (acceleration.abs() / limits.acceleration.array()).maxCoeff());
+    const PathPoint point = path_at(static_cast<double>(i) / samples);
+    slope = slope.cwiseMax(point.slope.cwiseAbs());
+    curvature = curvature.cwiseMax(point.curvature.cwiseAbs());
   }
-  duration_ = kMargin * std::max(by_velocity, std::sqrt(by_acceleration));
+  if (samples > 1) {
+    constexpr double kMargin = 1.01;  // for what lies between the samples
+    slope *= kMargin;
+    curvature *= kMargin;
+  }
+  const double steepest = (slope.array() / limits.velocity.array()).maxCoeff();
+  if (steepest < 1e-9) return;
+  // Half of the acceleration at most goes into the bends, the rest is left for the ramps.
+  const double bend = (curvature.array() / limits.acceleration.array()).maxCoeff();
+  constexpr double kSmall = 1e-9;
+  speed_ = 1.0 / steepest;
+  if (bend > kSmall) speed_ = std::min(speed_, std::sqrt(0.5 / bend));
+  const double for_ramps = 1.0 - bend * speed_ * speed_;
+  const double acceleration = for_ramps / (slope.array() / limits.acceleration.array()).maxCoeff();
+  // A short path has no time for the full speed: the ramps meet in its middle.
+  speed_ = std::min(speed_, std::sqrt(acceleration / 1.5));
+  ramp_ = 1.5 * speed_ / acceleration;
+  duration_ = 1.0 / speed_ + ramp_;
+}
+
+JointTrajectory::Progress JointTrajectory::progress_at(double time) const {
+  if (time <= 0.0 && duration_ > 0.0) return {0.0, 0.0};
+  if (time >= duration_) return {1.0, 0.0};
+  const auto rise = [this](double x) {
+    return Progress{speed_ * ramp_ * x * x * x * (1.0 - 0.5 * x), speed_ * x * x * (3.0 - 2.0 * x)};
+  };
+  if (time < ramp_) return rise(time / ramp_);
+  const double left = duration_ - time;
+  if (left >= ramp_) return {speed_ * (time - 0.5 * ramp_), speed_};
+  const Progress mirrored = rise(left / ramp_);
+  return {1.0 - mirrored.u, mirrored.du};
 }
 
 JointTrajectory::PathPoint JointTrajectory::path_at(double u) const {
@@ -67,12 +74,9 @@ JointTrajectory::PathPoint JointTrajectory::path_at(double u) const {
 }
 
 JointTrajectory::Sample JointTrajectory::at(double time) const {
-  const double s = duration_ > 0.0 ? std::clamp(time / duration_, 0.0, 1.0) : 1.0;
-  const Progress progress = progress_at(s);
+  const Progress progress = progress_at(time);
   const PathPoint point = path_at(progress.u);
-  Sample sample{point.position, JointVector::Zero(point.position.size())};
-  if (duration_ > 0.0) sample.velocities = point.slope * (progress.du / duration_);
-  return sample;
+  return {point.position, point.slope * progress.du};
 }
 
 }  // namespace coop::arm_driver

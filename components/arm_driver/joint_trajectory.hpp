@@ -12,10 +12,10 @@ struct MotionLimits {
 };
 
 /// Motion from rest to rest along a path through joint positions, all joints starting and stopping
-/// together, as fast as the limits allow. The way along the path is the quintic polynomial
-///   u(s) = 10 s^3 - 15 s^4 + 6 s^5,  s = t / duration
-/// (no jump of acceleration at the ends). Through more than two positions the path is a uniform
-/// Catmull-Rom spline; they should lie about equally far apart.
+/// together, as fast as the limits allow. The speed along the path is a trapezoid whose ramps are
+/// smooth, 3 x^2 - 2 x^3, so the acceleration does not jump along a straight path; a ramp that
+/// rises to speed V within time R has the peak acceleration 1.5 V / R. Through more than two
+/// positions the path is a uniform Catmull-Rom spline; they should lie about equally far apart.
 class JointTrajectory {
  public:
   struct Sample {
@@ -38,9 +38,16 @@ class JointTrajectory {
     JointVector slope;      ///< first derivative after u
     JointVector curvature;  ///< second derivative after u
   };
+  struct Progress {
+    double u = 0.0;   ///< 0 at the start of the path, 1 at its end
+    double du = 0.0;  ///< 1/s
+  };
   [[nodiscard]] PathPoint path_at(double u) const;
+  [[nodiscard]] Progress progress_at(double time) const;
 
   std::vector<JointVector> path_;
+  double speed_ = 0.0;  ///< greatest du, 1/s
+  double ramp_ = 0.0;   ///< s
   double duration_ = 0.0;
 };
 

@@ -149,7 +149,7 @@ JointTrajectory PickSequence::motion_of(Phase phase) const {
     case Phase::kBackOff:
       return motion_.straight_to(positions_, above(tip, config.search_lift));
     case Phase::kLift:
-      return motion_.straight_to(positions_, above(tip, config.approach_height));
+      return motion_.straight_to(positions_, above(tip, config.lift_height));
     case Phase::kCarry:
       return motion_.to(positions_, motion_.above_basket());
     case Phase::kLower:
@@ -226,7 +226,7 @@ void PickSequence::recover(const ArmInputs& inputs) {
     const PickStage stage = record_.running->stage;
     if (stage == PickStage::kStarted) set_stage(PickStage::kHolding);
     const double height = motion_.tip(positions_).z() - motion_.config().contact_height;
-    return enter(height < motion_.config().approach_height ? Phase::kLift : Phase::kCarry);
+    return enter(height < motion_.config().lift_height ? Phase::kLift : Phase::kCarry);
   }
   out_.suction = false;
   if (record_.running && record_.running->stage == PickStage::kReleasing) {

@@ -77,7 +77,7 @@ TEST(ArmMotion, CarriesTheEggClearOfBaseAndBasket) {
   const ArmMotion motion(model, {});
   auto obstacles = {box_of(model, robot::kBaseLink), box_of(model, robot::kBasketLink)};
   for (const Vector2d& egg : {kEgg, Vector2d(0.80, -0.15), Vector2d(1.04, 0.15)}) {
-    const auto lifted = motion.posture_at(Vector3d(egg.x(), egg.y(), 0.165));
+    const auto lifted = motion.posture_at(Vector3d(egg.x(), egg.y(), 0.205));
     ASSERT_TRUE(lifted);
     const auto carry = motion.to(*lifted, motion.above_basket());
     for (double t = 0; t <= carry.duration(); t += 0.02) {

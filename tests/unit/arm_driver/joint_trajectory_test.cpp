@@ -39,16 +39,17 @@ TEST(JointTrajectory, StartsAndEndsAtRestWhereItShould) {
   EXPECT_TRUE(motion.at(motion.duration() / 2).positions.isApprox(joints({0.5, 0}), 1e-9));
 }
 
-// The quintic's greatest speed is 15/8 of the mean: 2 rad at 1 rad/s take 3.75 s, plus one percent.
+// 2 rad at 1 rad/s take 2 s and, the ramps being 1.5 * 1 / 100 s long, 15 ms more.
 TEST(JointTrajectory, LastsAsLongAsTheSlowestJointNeeds) {
   const JointTrajectory motion({joints({0, 0}), joints({2, 1})}, limits({1, 1}, {100, 100}));
-  EXPECT_NEAR(motion.duration(), 3.75 * 1.01, 0.005);
+  EXPECT_NEAR(motion.duration(), 2.015, 1e-9);
 }
 
-// Its greatest acceleration is 10/sqrt(3) of distance / time squared: 1 rad at 1 rad/s2.
+// Two ramps that meet: 1 rad = V R, and R = 1.5 V / (1 rad/s2), so V = sqrt(1/1.5), 2 R = sqrt(6).
 TEST(JointTrajectory, LastsLongerWhereTheAccelerationIsTheLimit) {
   const JointTrajectory motion({joints({0}), joints({1})}, limits({100}, {1}));
-  EXPECT_NEAR(motion.duration(), std::sqrt(10.0 / std::sqrt(3.0)) * 1.01, 0.005);
+  EXPECT_NEAR(motion.duration(), std::sqrt(6.0), 1e-9);
+  EXPECT_NEAR(motion.at(motion.duration() / 2).velocities[0], std::sqrt(1 / 1.5), 1e-9);
 }
 
 TEST(JointTrajectory, KeepsTheLimitsOfEveryJoint) {

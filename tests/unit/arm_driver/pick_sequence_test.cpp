@@ -17,8 +17,8 @@ TEST(PickSequence, PicksAnEggIntoTheBasketInSixToEightSeconds) {
   ASSERT_TRUE(bench.run_to_report());
   EXPECT_EQ(bench.reports[0], (PickReport{"p1", "egg", PickOutcome::kPicked, ""}));
   EXPECT_EQ(bench.eggs_in_basket, 1);
-  EXPECT_GT(bench.time - start, 5.0);
-  EXPECT_LT(bench.time - start, 8.5);
+  EXPECT_GT(bench.time - start, 6.0);
+  EXPECT_LT(bench.time - start, 8.0);
   EXPECT_LT((bench.arm().positions - bench.motion().home()).norm(), 0.03) << "told at home";
   bench.run_for(1.0);
   EXPECT_FALSE(bench.step().busy);
