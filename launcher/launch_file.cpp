@@ -41,7 +41,7 @@ Launch read(const std::filesystem::path& path, const std::vector<std::string>& o
 const std::vector<std::string>& launch_keys() {
   static const std::vector<std::string> keys{
       "robot",   "domain", "use_sim_time", "reliable_streams", "seed",
-      "run_dir", "dds",    "variables",    "components"};
+      "run_dir", "dds",    "variables",    "defaults",         "components"};
   return keys;
 }
 
@@ -94,6 +94,7 @@ void LogSettings::describe(config::Fields& fields) {
 
 void Component::describe(config::Fields& fields) {
   static constexpr std::array<std::string_view, 2> kHealth{"heartbeat", "none"};
+  static constexpr std::array<std::string_view, 2> kTime{"as_launch", "system"};
   static constexpr std::array<std::string_view, 2> kOnExit{"ignore", "shutdown"};
   fields.flag("enabled", enabled, {.help = "false: declared, but not part of the system"});
   fields.text("executable", executable, {.help = "program; default: the component's name"});
@@ -113,6 +114,7 @@ void Component::describe(config::Fields& fields) {
                 {.unit = "s", .help = "silence that counts as a hang", .min = 0.01, .max = 3600});
   fields.number("stop_timeout", stop_timeout,
                 {.unit = "s", .help = "from SIGTERM to SIGKILL", .min = 0, .max = 3600});
+  fields.choice("time", time, kTime, {.help = "system: despite use_sim_time (master of time)"});
   fields.choice("on_exit", on_exit, kOnExit,
                 {.help = "shutdown: its end with exit code 0 ends the system"});
   fields.flag("required", required, {.help = "the system stops when it is given up"});
@@ -133,7 +135,8 @@ void Launch::describe(config::Fields& fields) {
   fields.text("run_dir", run_dir, {.help = "each run gets a folder in it"});
   fields.section("dds", dds);
   fields.assignments("variables", variables, {.help = "${name} in every text of the file"});
-  fields.mapping("components", components);
+  fields.section("defaults", defaults);
+  fields.mapping("components", components, defaults);
 }
 
 Launch load_launch(const std::filesystem::path& path, const std::vector<std::string>& overrides) {

@@ -44,6 +44,7 @@ struct Component {
   double start_timeout = 15.0;       ///< s, from start to ready
   double heartbeat_timeout = 3.0;    ///< s without heartbeat: the process hangs
   double stop_timeout = 3.0;         ///< s, from SIGTERM to SIGKILL
+  std::string time = "as_launch";    ///< system: despite use_sim_time, for the master of time
   std::string on_exit = "ignore";    ///< shutdown: its end with exit code 0 ends the system
   bool required = true;              ///< the system stops when this one is given up
 
@@ -68,6 +69,7 @@ struct Launch {
   std::string run_dir = "runs";  ///< each run gets a folder of its own in it
   DdsSettings dds;
   std::vector<config::Assignment> variables;  ///< ${name} in every text of the file
+  Component defaults;                         ///< what components start from that come after it
   std::vector<config::Named<Component>> components;
 
   void describe(config::Fields& fields);

@@ -176,7 +176,8 @@ class Planner {
                    "--seed",    std::to_string(launch_.seed),
                    "--run-dir", run_folder_.string(),
                    "--log-dir", (run_folder_ / "logs").string()};
-      if (launch_.use_sim_time) arguments.emplace_back("--sim-time");
+      const bool is_master = component.value.time == "system";
+      if (launch_.use_sim_time && !is_master) arguments.emplace_back("--sim-time");
       if (launch_.reliable_streams) arguments.emplace_back("--reliable-streams");
       const std::string config = config_of(component, planned.executable);
       if (!config.empty()) arguments.insert(arguments.end(), {"--config", config});

@@ -99,17 +99,18 @@ class Fields {
   }
 
   /// A mapping from names to structs, each with its own describe(), in the order of the file. A
-  /// name that `values` holds already keeps what the file does not say; a new one starts from the
-  /// struct's defaults.
+  /// name that `values` holds already keeps what the file does not say; a new one starts from
+  /// `prototype`.
   template <class Struct>
-  void mapping(std::string_view name, std::vector<Named<Struct>>& values) {
+  void mapping(std::string_view name, std::vector<Named<Struct>>& values,
+               const Struct& prototype = {}) {
     std::vector<std::string> names;
     for (const auto& element : values) names.push_back(element.name);
     if (!begin_mapping(name, names)) return;
     for (const std::string& key : names) {
       auto found = values.begin();
       while (found != values.end() && found->name != key) ++found;
-      if (found == values.end()) found = values.insert(found, {key, "", Struct{}});
+      if (found == values.end()) found = values.insert(found, {key, "", prototype});
       const std::string place = where(key);
       if (!place.empty()) found->where = place;
       if (!begin_section(key)) continue;

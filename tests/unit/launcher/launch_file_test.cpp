@@ -72,6 +72,17 @@ TEST_F(LaunchFileTest, AnIncludingFileAddsToAndOverridesWhatItIncludes) {
   EXPECT_EQ(launch.components[2].name, "slam");
 }
 
+TEST_F(LaunchFileTest, ComponentsStartFromTheDefaultsOfTheirFile) {
+  const Launch launch = load_launch(
+      write("a.yaml",
+            "defaults: {restart: {policy: always}, environment: {A: 1}}\ncomponents:\n  a:\n  b: "
+            "{restart: {policy: never}, environment: {B: 2}}\n"),
+      {});
+  EXPECT_EQ(launch.components[0].value.restart.policy, "always");
+  EXPECT_EQ(launch.components[1].value.restart.policy, "never");
+  EXPECT_EQ(launch.components[1].value.environment.size(), 2U);
+}
+
 TEST_F(LaunchFileTest, AnErrorInAnIncludedFileNamesThatFile) {
   write("base.yaml", "components:\n  dwa:\n    paramters: {v: 1}\n");
   EXPECT_THAT(error_of("include: [base.yaml]\n"),

@@ -105,6 +105,12 @@ TEST_F(PlanTest, AProgramWithoutHeartbeatGetsOnlyItsOwnArguments) {
   EXPECT_THAT(plan_.components[0].arguments, ElementsAre("/run/here/x", "0"));
 }
 
+TEST_F(PlanTest, TheMasterOfTimeIsTheOnlyOneWithoutSimTime) {
+  const Plan plan_ = plan("use_sim_time: true\ncomponents:\n  a: {time: system}\n  b:\n");
+  EXPECT_THAT(plan_.components[0].arguments, Not(Contains("--sim-time")));
+  EXPECT_THAT(plan_.components[1].arguments, Contains("--sim-time"));
+}
+
 TEST_F(PlanTest, SwappingAProgramTakesItsUsualConfiguration) {
   const Plan plan_ = plan("variables: {base: b}\ncomponents:\n  base: {executable: \"${base}\"}\n");
   EXPECT_EQ(plan_.components[0].executable, places_.programs / "b");
