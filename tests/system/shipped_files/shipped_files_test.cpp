@@ -1,0 +1,80 @@
+// Every configuration and launch file that comes with Coop is accepted by the programs it is for.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/atomic_file.hpp"
+#include "system/support/running_system.hpp"
+
+namespace coop::test {
+namespace {
+
+const std::filesystem::path kRoot = COOP_SOURCE_DIR;
+
+std::vector<std::string> yaml_files(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(kRoot / folder)) {
+    if (entry.path().extension() == ".yaml") {
+      files.push_back(folder + "/" + entry.path().filename().string());
+    }
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+std::string test_name(const ::testing::TestParamInfo<std::string>& info) {
+  std::string name = std::filesystem::path(info.param).stem().string();
+  std::ranges::replace_if(
+      name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+}
+
+/// A CARMEN log of two readings.
+std::filesystem::path small_log(const std::filesystem::path& folder) {
+  const auto file = folder / "small.clf";
+  write_file_atomically(file,
+                        "ODOM 0 0 0 0 0 0 100.0 host 0.0\n"
+                        "FLASER 4 1.0 1.0 1.0 1.0 0 0 0 0 0 0 100.1 host 0.1\n"
+                        "ODOM 0.1 0 0 0 0 0 100.2 host 0.2\n"
+                        "FLASER 4 1.0 1.0 1.0 1.0 0.1 0 0 0.1 0 0 100.3 host 0.3\n");
+  return file;
+}
+
+class LaunchFile : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(LaunchFile, IsAcceptedByEveryComponentItNames) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments{"check", (kRoot / GetParam()).string()};
+  if (GetParam().ends_with("map_log.yaml")) {
+    arguments.insert(arguments.end(), {"--set", "log=" + small_log(folder.path()).string()});
+  }
+  const auto result = run_launcher(arguments, folder.path());
+  EXPECT_EQ(result.code, 0) << result.output;
+  EXPECT_EQ(result.output, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, LaunchFile, ::testing::ValuesIn(yaml_files("config/launch")),
+                         test_name);
+
+class Configuration : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Configuration, IsAcceptedByItsProgram) {
+  const TemporaryFolder folder;
+  const std::string name = std::filesystem::path(GetParam()).stem().string();
+  Program program(name, {"--check", "--config", (kRoot / GetParam()).string()},
+                  folder.path() / "out");
+  const auto status = program.wait();
+  ASSERT_TRUE(status) << name << " does not answer --check";
+  EXPECT_EQ(status->code, 0) << program.output();
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, Configuration, ::testing::ValuesIn(yaml_files("config")),
+                         test_name);
+
+TEST(ShippedFiles, AreThere) {
+  EXPECT_THAT(yaml_files("config/launch"), testing::Contains("config/launch/sim.yaml"));
+}
+
+}  // namespace
+}  // namespace coop::test
