@@ -1,0 +1,41 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "camera_driver/egg_detector.hpp"
+#include "camera_driver/simulated_camera.hpp"
+#include "runtime/node.hpp"
+
+namespace coop::camera_driver {
+
+struct SimulationConfig {
+  double rate = 5.0;  ///< Hz, of simulated time
+  SimulatedCameraConfig camera;
+
+  void describe(config::Fields& fields);
+};
+
+struct CameraDriverConfig {
+  std::string backend = "sim";  ///< "sim"
+  std::string robot = "config/robot/egg_collector.urdf";
+  SimulationConfig sim;
+  EggDetectorConfig detector;
+
+  void describe(config::Fields& fields);
+  void validate() const;
+};
+
+/// The camera driver as a component; where pictures come from is up to the backend.
+class CameraDriverNode {
+ public:
+  using Config = CameraDriverConfig;
+  /// Throws where the files that the backend needs cannot be used.
+  static void check(const Config& config);
+
+  CameraDriverNode(runtime::Node& node, const Config& config);
+
+ private:
+  std::shared_ptr<void> backend_;
+};
+
+}  // namespace coop::camera_driver
