@@ -11,9 +11,12 @@ namespace {
 constexpr Duration kPeriod = std::chrono::milliseconds(5);
 /// Spent at a time on waiting for readers.
 constexpr Duration kGlance = std::chrono::milliseconds(50);
+/// Readings under way that readers need not have taken in yet; far less than what a write would
+/// block at, where no heart beats.
+constexpr std::size_t kWindow = 500;
 /// Steps a call: long enough to be fast, short enough to beat the heart and hear signals in
 /// between.
-constexpr int kStepsPerCall = 20;
+constexpr int kStepsPerCall = 100;
 
 }  // namespace
 
@@ -51,14 +54,20 @@ void LogBackend::play() {
     return;
   }
   if (!playback_.started() && !readers_are_there()) return;
-  // Readers that have not yet taken in the last batch hold the playback here, where the heart beats
-  // on, and not in a blocked write.
-  if (!output_.wait_for_acknowledgments(kGlance)) return;
+  if (!readers_keep_up()) return;
   for (int i = 0; i < kStepsPerCall; ++i) {
     const auto step = playback_.next(node_.now());
     if (!step || !publish_until(*step)) return;
     playback_.advance(*step);
+    if (next_ - acknowledged_ > kWindow) return;
   }
+}
+
+bool LogBackend::readers_keep_up() {
+  if (next_ - acknowledged_ <= kWindow) return true;
+  if (!output_.wait_for_acknowledgments(kGlance)) return false;
+  acknowledged_ = next_;
+  return true;
 }
 
 bool LogBackend::publish_until(Time step) {

@@ -20,6 +20,7 @@ class LogBackend {
  private:
   void play();
   [[nodiscard]] bool readers_are_there();
+  [[nodiscard]] bool readers_keep_up();
   [[nodiscard]] bool publish_until(Time step);
   void finish();
 
@@ -28,7 +29,8 @@ class LogBackend {
   Playback playback_;
   OdometryOutput output_;
   runtime::Publisher<rosgraph_msgs::msg::Clock> clock_;
-  std::size_t next_ = 0;  ///< reading to publish
+  std::size_t next_ = 0;          ///< reading to publish
+  std::size_t acknowledged_ = 0;  ///< readings known to have been taken in by all readers
   bool wait_for_readers_;
   Duration settle_;
   Duration patience_;
