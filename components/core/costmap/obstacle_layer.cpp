@@ -98,9 +98,13 @@ void ObstacleLayer::collect_beams(const LaserScan& scan, const ScanPose& pose,
     const bool marks = scan.is_hit(i) && range <= config_.obstacle_range;
     const double length = std::min(range, marks ? range : config_.clearing_range);
     const double angle = scan.angle(i);
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    if (footprint.contains(pose.laser_in_base * Eigen::Vector2d(length * direction))) continue;
+    // A hit lies on the obstacle's face, often on the border of two cells; the cell behind it is
+    // the obstacle's.
+    const double depth = marks ? 0.5 * states_.geometry.resolution : 0.0;
     const Eigen::Vector2d end_in_base =
-        pose.laser_in_base * Eigen::Vector2d(length * std::cos(angle), length * std::sin(angle));
-    if (footprint.contains(end_in_base)) continue;
+        pose.laser_in_base * Eigen::Vector2d((length + depth) * direction);
     const Pose2 base =
         interpolate(pose.base_in_grid_first, pose.base_in_grid_last, static_cast<double>(i) / last);
     beams_.push_back({states_.geometry.cell_of(base * pose.laser_in_base.position()),

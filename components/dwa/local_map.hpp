@@ -1,0 +1,57 @@
+#pragma once
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "core/costmap/costmap.hpp"
+#include "core/costmap/footprint.hpp"
+#include "core/costmap/obstacle_layer.hpp"
+#include "core/grid.hpp"
+#include "core/pose.hpp"
+#include "core/scan.hpp"
+#include "core/time.hpp"
+#include "dwa/config.hpp"
+
+namespace coop::dwa {
+
+/// Square costmap that goes with the robot, in the odom frame, where the robot's pose does not
+/// jump. What the laser has seen counts; where it has not looked, obstacles of the static map stand
+/// in. An obstacle of the map beside one that was seen is left out: it is the same one, displaced
+/// by the error of localisation.
+class LocalMap {
+ public:
+  /// `reach`: distance that collision checks need, m.
+  LocalMap(const LocalMapConfig& config, const Footprint& footprint, double reach);
+
+  void set_static_map(const OccupancyGrid& map);
+  /// Moves the square with the robot and adds the scan.
+  void integrate(const LaserScan& scan, const ObstacleLayer::ScanPose& pose);
+
+  struct Spot {
+    Eigen::Vector2d center_in_map;
+    double radius = 0.0;  ///< m
+  };
+  /// Round spots to keep clear of, although the laser does not see them.
+  void set_spots(std::vector<Spot> spots) { spots_ = std::move(spots); }
+
+  /// Brings costs and distances up to date. `odom_in_map` places static map and spots.
+  void update(const Pose2& base_in_odom, const Pose2& odom_in_map, Time now);
+
+  [[nodiscard]] const Costmap& costmap() const { return costmap_; }
+  void clear() { layer_.clear(); }
+
+ private:
+  void center_on(const Eigen::Vector2d& point);
+  void add_static(std::span<std::uint8_t> obstacles, const Pose2& odom_in_map);
+
+  LocalMapConfig config_;
+  Footprint footprint_;
+  ObstacleLayer layer_;
+  Costmap costmap_;
+  OccupancyGrid map_;
+  DistanceField seen_;
+  std::vector<std::uint8_t> marked_;
+  std::vector<Spot> spots_;
+};
+
+}  // namespace coop::dwa

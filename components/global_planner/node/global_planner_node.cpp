@@ -1,0 +1,212 @@
+#include "global_planner/node/global_planner_node.hpp"
+
+#include "conversions/geometry.hpp"
+#include "conversions/navigation.hpp"
+#include "conversions/sensors.hpp"
+#include "conversions/time.hpp"
+
+namespace coop::global_planner {
+
+using coop_msgs::msg::NavigationStatus;
+using runtime::Qos;
+namespace Constants = coop_msgs::msg::NavigationStatus_Constants;
+
+namespace {
+
+constexpr auto kUpdatePeriod = std::chrono::milliseconds(100);
+constexpr auto kCostmapPeriod = std::chrono::seconds(1);
+constexpr auto kPatience = std::chrono::seconds(1);
+constexpr auto kPoseAge = std::chrono::seconds(1);
+
+std::uint8_t to_state(PlannerState state) {
+  switch (state) {
+    case PlannerState::kIdle:
+      return Constants::IDLE;
+    case PlannerState::kPlanning:
+      return Constants::PLANNING;
+    case PlannerState::kPlanned:
+      return Constants::DRIVING;
+    case PlannerState::kFailed:
+      return Constants::FAILED;
+    case PlannerState::kCancelled:
+      return Constants::PREEMPTED;
+  }
+  return Constants::IDLE;
+}
+
+std::uint8_t to_reason(PlannerReason reason) {
+  switch (reason) {
+    case PlannerReason::kNone:
+      return Constants::NONE;
+    case PlannerReason::kNoMap:
+      return Constants::NO_MAP;
+    case PlannerReason::kNoPose:
+      return Constants::NO_POSE;
+    case PlannerReason::kStartBlocked:
+      return Constants::START_BLOCKED;
+    case PlannerReason::kGoalBlocked:
+      return Constants::GOAL_BLOCKED;
+    case PlannerReason::kGoalOutside:
+      return Constants::GOAL_OUTSIDE;
+    case PlannerReason::kGoalUnknown:
+      return Constants::GOAL_UNKNOWN_SPACE;
+    case PlannerReason::kNoPath:
+      return Constants::NO_PATH;
+  }
+  return Constants::NONE;
+}
+
+}  // namespace
+
+void GlobalPlannerNodeConfig::describe(config::Fields& fields) {
+  fields.text("robot", robot, {.help = "URDF of the robot: footprint, turning circle"});
+  fields.number("egg_radius", egg_radius,
+                {.unit = "m", .help = "kept clear around an egg on the floor", .min = 0, .max = 1});
+  planner.describe(fields);
+}
+
+GlobalPlannerNode::GlobalPlannerNode(runtime::Node& node, const Config& config)
+    : node_(node),
+      config_(config),
+      planner_(config.planner, robot::RobotModel::load(config.robot).footprint(),
+               robot::RobotModel::load(config.robot).ackermann().min_turning_radius()),
+      transforms_(node.transforms()),
+      scans_("map", kPatience, 20),
+      plan_publisher_(node.advertise<nav_msgs::msg::Path>("plan", Qos::kStateLatched)),
+      costmap_publisher_(
+          node.advertise<nav_msgs::msg::OccupancyGrid>("global_costmap", Qos::kStateLatched)),
+      status_publisher_(node.advertise<NavigationStatus>("navigation_status", Qos::kStateLatched)) {
+  node.subscribe<nav_msgs::msg::OccupancyGrid>("map", Qos::kStateLatched,
+                                               [this](const nav_msgs::msg::OccupancyGrid& message) {
+                                                 const auto map = conversions::from_msg(message);
+                                                 if (map) planner_.map().set_map(map->value);
+                                               });
+  node.subscribe<sensor_msgs::msg::LaserScan>("scan", Qos::kSensorStream,
+                                              [this](const sensor_msgs::msg::LaserScan& message) {
+                                                auto scan = conversions::from_msg(message);
+                                                if (!scan) return;
+                                                const Time stamp = scan->stamp;
+                                                scans_.push(std::move(*scan), "base_link", stamp);
+                                              });
+  node.subscribe<geometry_msgs::msg::PoseStamped>(
+      "goal_pose", Qos::kEvent,
+      [this](const geometry_msgs::msg::PoseStamped& message) { receive_goal(message); });
+  node.subscribe<NavigationStatus>(
+      "navigation_status", Qos::kStateLatched,
+      [this](const NavigationStatus& message) { receive_driver(message); });
+  node.subscribe<coop_msgs::msg::MissionStatus>(
+      "mission_status", Qos::kStateLatched,
+      [this](const coop_msgs::msg::MissionStatus& message) { receive_eggs(message); });
+  node.every(kUpdatePeriod, [this] { update(); });
+  publish_status();
+}
+
+void GlobalPlannerNode::receive_goal(const geometry_msgs::msg::PoseStamped& message) {
+  const auto goal = conversions::from_msg(message);
+  if (!goal || goal->frame_id != "map") {
+    node_.log().warning("goal refused: {}",
+                        goal ? "its frame is '" + goal->frame_id + "', not map" : goal.error());
+    return;
+  }
+  // A goal told by hand may carry no stamp; it is told once and named by its arrival.
+  const Time stamp = goal->stamp == Time{} ? node_.now() : goal->stamp;
+  if (stamp != goal_stamp_) {
+    node_.log().info("goal {}: ({:.2f}, {:.2f}, {:.2f})", to_nanoseconds(stamp), goal->value.x,
+                     goal->value.y, goal->value.yaw);
+  }
+  goal_stamp_ = stamp;
+  planner_.set_goal({std::to_string(to_nanoseconds(stamp)), goal->value}, node_.now());
+}
+
+void GlobalPlannerNode::receive_driver(const NavigationStatus& message) {
+  if (message.source() != "dwa") return;
+  DriverReport report;
+  report.goal_id = message.goal_id();
+  report.arrived = message.state() == Constants::ARRIVED;
+  report.failed = message.state() == Constants::FAILED;
+  report.wants_new_plan =
+      message.state() == Constants::DRIVING && message.reason() == Constants::STUCK;
+  planner_.report(report);
+}
+
+/// Eggs on the floor must not come under the wheels.
+void GlobalPlannerNode::receive_eggs(const coop_msgs::msg::MissionStatus& message) {
+  std::vector<PlanningMap::Spot> spots;
+  for (const auto& egg : message.eggs()) {
+    if (egg.state() == coop_msgs::msg::EggStatus_Constants::PICKED) continue;
+    spots.push_back({{egg.position().x(), egg.position().y()}, config_.egg_radius});
+  }
+  planner_.map().set_spots(std::move(spots));
+}
+
+void GlobalPlannerNode::integrate_scans() {
+  scans_.process(transforms_, node_.now(), [this](const LaserScan& scan, const Pose3& base_in_map) {
+    const auto laser = transforms_.lookup("base_link", scan.frame_id, scan.stamp);
+    if (!laser) return;
+    const Duration sweep =
+        seconds(static_cast<double>(scan.time_increment) * static_cast<double>(scan.ranges.size()));
+    const auto last = transforms_.lookup("map", "base_link", scan.stamp + sweep);
+    const Pose2 first = to_pose2(base_in_map);
+    planner_.map().integrate(scan, {first, last ? to_pose2(*last) : first, to_pose2(*laser)});
+  });
+}
+
+std::optional<Pose2> GlobalPlannerNode::robot_in_map() const {
+  const auto newest = transforms_.newest_stamp("map", "base_link");
+  if (!newest || node_.now() - *newest > kPoseAge) return std::nullopt;
+  const auto pose = transforms_.lookup("map", "base_link", *newest);
+  if (!pose) return std::nullopt;
+  return to_pose2(*pose);
+}
+
+void GlobalPlannerNode::update() {
+  integrate_scans();
+  const auto robot = robot_in_map();
+  const GlobalPlanner::Changes changes = planner_.update(robot, node_.now());
+  if (changes.plan) {
+    node_.log().debug("plan of {} poses: {}", planner_.plan().size(), changes.why);
+    publish_plan();
+  }
+  if (changes.status) publish_status();
+  costmap_waits_ = costmap_waits_ || changes.costmap;
+  if (costmap_waits_ && node_.now() - costmap_published_ >= kCostmapPeriod) publish_costmap();
+  if (!planner_.map().has_map()) {
+    node_.set_degraded("no map");
+  } else if (!robot) {
+    node_.set_degraded("no pose of the robot in map");
+  } else {
+    node_.set_ready();
+  }
+}
+
+void GlobalPlannerNode::publish_plan() {
+  plan_publisher_.publish(conversions::to_path_msg({goal_stamp_, "map", planner_.plan()}));
+}
+
+void GlobalPlannerNode::publish_status() {
+  const PlannerStatus& status = planner_.status();
+  NavigationStatus message;
+  message.header(conversions::to_header(node_.now(), "map"));
+  message.source("global_planner");
+  message.goal_id(status.goal_id);
+  message.state(to_state(status.state));
+  message.reason(to_reason(status.reason));
+  message.detail(status.detail);
+  message.distance_remaining(status.path_length);
+  message.path_cost(status.path_cost);
+  message.goal(conversions::to_msg(to_pose3(status.goal_in_map)));
+  message.has_alternative_goal(status.alternative.has_value());
+  if (status.alternative) {
+    message.alternative_goal(conversions::to_msg(to_pose3(*status.alternative)));
+  }
+  status_publisher_.publish(message);
+}
+
+void GlobalPlannerNode::publish_costmap() {
+  costmap_published_ = node_.now();
+  costmap_waits_ = false;
+  costmap_publisher_.publish(conversions::to_msg(
+      Stamped<OccupancyGrid>{node_.now(), "map", to_occupancy(planner_.map().costmap().costs())}));
+}
+
+}  // namespace coop::global_planner

@@ -1,0 +1,75 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/config/fields.hpp"
+#include "core/costmap/costmap.hpp"
+#include "core/costmap/footprint.hpp"
+#include "core/costmap/obstacle_layer.hpp"
+#include "core/grid.hpp"
+#include "core/scan.hpp"
+#include "core/time.hpp"
+
+namespace coop::global_planner {
+
+struct PlanningMapConfig {
+  int occupied_from = 65;  ///< percent: map cells from here on are obstacles
+  double static_tolerance =
+      0.10;  ///< m: what the laser sees this close to an obstacle of the map is that obstacle
+  InflationConfig inflation;
+  ObstacleLayerConfig obstacles;
+
+  void describe(config::Fields& fields);
+};
+
+/// The global costmap, in the map's frame, out of three layers as in the egg paper's section 2.2.1:
+/// the static map, what the laser sees beyond it (raytraced marking and clearing), and inflation;
+/// and round spots to keep clear of (eggs).
+///
+/// The inscribed zone reaches to the half width of the padded footprint, not to the largest disc
+/// about base_link, which at the rear axle is smaller: whoever drives along a path needs the half
+/// width on each side.
+class PlanningMap {
+ public:
+  /// `padding`: m around the footprint. `reach`: distance that collision checks need, m.
+  PlanningMap(const PlanningMapConfig& config, const Footprint& footprint, double padding,
+              double reach);
+
+  /// A map may grow, shift by whole cells and change; what the laser saw is kept.
+  void set_map(const OccupancyGrid& map);
+  [[nodiscard]] bool has_map() const { return map_.geometry.size() > 0; }
+  /// A scan; ignored while there is no map.
+  void integrate(const LaserScan& scan, const ObstacleLayer::ScanPose& pose);
+
+  struct Spot {
+    Eigen::Vector2d center;
+    double radius = 0.0;  ///< m
+    bool operator==(const Spot&) const = default;
+  };
+  void set_spots(std::vector<Spot> spots);
+
+  /// Brings costs and distances up to date. Whether anything changed.
+  bool update(Time now);
+
+  [[nodiscard]] const Costmap& costmap() const { return costmap_; }
+  [[nodiscard]] const OccupancyGrid& map() const { return map_; }
+
+ private:
+  void mark_spot(const Spot& spot, std::span<std::uint8_t> cells) const;
+
+  PlanningMapConfig config_;
+  Footprint footprint_;
+  OccupancyGrid map_;
+  std::vector<std::uint8_t> static_obstacles_;
+  DistanceField static_distances_;
+  ObstacleLayer obstacle_layer_;
+  std::vector<Spot> spots_;
+  Costmap costmap_;
+  std::vector<std::uint8_t> marked_;  ///< obstacles now, to tell whether they changed
+  bool map_changed_ = false;
+};
+
+}  // namespace coop::global_planner
