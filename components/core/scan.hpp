@@ -26,6 +26,11 @@ struct LaserScan {
   [[nodiscard]] float angle(std::size_t beam) const {
     return angle_min + static_cast<float>(beam) * angle_increment;
   }
+  /// From the first beam to the last; zero where unknown.
+  [[nodiscard]] Duration sweep_duration() const {
+    const std::size_t steps = ranges.empty() ? 0 : ranges.size() - 1;
+    return seconds(static_cast<double>(time_increment) * static_cast<double>(steps));
+  }
   [[nodiscard]] bool is_hit(std::size_t beam) const {
     return ranges[beam] >= range_min && ranges[beam] <= range_max;  // false for NaN
   }

@@ -44,12 +44,12 @@ ParticleFilter::ParticleFilter(const SlamConfig& config, std::uint64_t seed, For
 }
 
 ScanOutcome ParticleFilter::update(const LaserScan& scan, const Pose2& base_in_odom,
-                                   const Pose2& laser_in_base) {
+                                   const Pose2& laser_in_base, const Pose2& sweep) {
   ScanOutcome outcome;
   const bool first = steps_.empty();
   const Pose2 motion = first ? Pose2{} : steps_.back().base_in_odom.inverse() * base_in_odom;
   if (!first && !moved_enough(scan, motion)) return outcome;
-  const ScanPoints points = to_points(scan, laser_in_base, config_.scan);
+  const ScanPoints points = to_points(scan, laser_in_base, sweep, config_.scan);
   if (points.empty()) return outcome;
   workers_.run(particles_.size(), [&](std::size_t i, std::size_t worker) {
     if (!first) move(particles_[i], streams_[i], scratch_[worker], points, motion);

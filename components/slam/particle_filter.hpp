@@ -50,7 +50,8 @@ class ParticleFilter {
   /// The next scan, with odometry's pose of base_link at its stamp; `laser_in_base` is the mount.
   /// Scans come in the order of their stamps. The first defines the map: its base_link pose is the
   /// map's origin.
-  ScanOutcome update(const LaserScan& scan, const Pose2& base_in_odom, const Pose2& laser_in_base);
+  ScanOutcome update(const LaserScan& scan, const Pose2& base_in_odom, const Pose2& laser_in_base,
+                     const Pose2& sweep = {});
 
   [[nodiscard]] bool has_map() const { return !steps_.empty(); }
   /// Particle with the largest weight over its whole way.

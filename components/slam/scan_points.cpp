@@ -33,34 +33,53 @@ std::vector<Eigen::Vector2f> thinned(const std::vector<Eigen::Vector2f>& points,
   return kept;
 }
 
+/// Ends of beams, each from where the laser was at its time.
+class BeamPlacer {
+ public:
+  BeamPlacer(const LaserScan& scan, const Pose2& laser_in_base, const Pose2& sweep)
+      : scan_(scan),
+        laser_in_base_(laser_in_base),
+        sweep_(sweep),
+        step_(scan.ranges.size() > 1 ? 1.0 / static_cast<double>(scan.ranges.size() - 1) : 0.0) {}
+
+  [[nodiscard]] Eigen::Vector2f end(std::size_t beam, double range) const {
+    const double angle = static_cast<double>(scan_.angle_min) +
+                         static_cast<double>(beam) * static_cast<double>(scan_.angle_increment);
+    const Eigen::Vector2d in_laser{range * std::cos(angle), range * std::sin(angle)};
+    const Pose2 moved = interpolate(Pose2{}, sweep_, static_cast<double>(beam) * step_);
+    return (moved * (laser_in_base_ * in_laser)).cast<float>();
+  }
+
+ private:
+  const LaserScan& scan_;
+  Pose2 laser_in_base_;
+  Pose2 sweep_;
+  double step_;
+};
+
 }  // namespace
 
-ScanPoints to_points(const LaserScan& scan, const Pose2& laser_in_base,
+ScanPoints to_points(const LaserScan& scan, const Pose2& laser_in_base, const Pose2& sweep,
                      const ScanPointsConfig& config) {
   ScanPoints points;
   points.laser_in_base = laser_in_base.position();
-  const auto end_at = [&](std::size_t beam, double range) {
-    const double angle = static_cast<double>(scan.angle_min) +
-                         static_cast<double>(beam) * static_cast<double>(scan.angle_increment);
-    const Eigen::Vector2d in_laser{range * std::cos(angle), range * std::sin(angle)};
-    return Eigen::Vector2f((laser_in_base * in_laser).cast<float>());
-  };
-  std::vector<Eigen::Vector2f> matchable;
+  const BeamPlacer placer(scan, laser_in_base, sweep);
+  const double open_range = std::min(config.map_range, static_cast<double>(scan.range_max));
   const auto spacing = static_cast<float>(config.min_spacing);
+  std::vector<Eigen::Vector2f> matchable;
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
     const auto range = static_cast<double>(scan.ranges[i]);
     if (scan.is_hit(i)) {
+      const Eigen::Vector2f end = placer.end(i, range);
       if (range > config.map_range) {
-        points.open_ends.push_back(end_at(i, config.map_range));
+        points.open_ends.push_back(placer.end(i, config.map_range));
       } else {
-        points.ends.push_back(end_at(i, range));
+        points.ends.push_back(end);
       }
       if (range > config.match_range) continue;
-      const Eigen::Vector2f end = end_at(i, range);
       if (matchable.empty() || (end - matchable.back()).norm() >= spacing) matchable.push_back(end);
-    } else if (config.clear_without_return && range > static_cast<double>(scan.range_max)) {
-      points.open_ends.push_back(
-          end_at(i, std::min(config.map_range, static_cast<double>(scan.range_max))));
+    } else if (config.clear_without_return && range > open_range) {
+      points.open_ends.push_back(placer.end(i, open_range));
     }
   }
   points.match = thinned(matchable, static_cast<std::size_t>(config.max_match_points));

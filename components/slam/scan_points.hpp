@@ -28,8 +28,10 @@ struct ScanPoints {
   [[nodiscard]] bool empty() const { return match.empty(); }
 };
 
-/// `laser_in_base` is the mount of the sensor, yaw included.
+/// `laser_in_base` is the mount of the sensor, yaw included. `sweep` is the pose of base_link at
+/// the scan's last beam seen from that at its first: beams are moved to where they belong, evenly
+/// in between. The ends are in base_link at the first beam.
 [[nodiscard]] ScanPoints to_points(const LaserScan& scan, const Pose2& laser_in_base,
-                                   const ScanPointsConfig& config);
+                                   const Pose2& sweep, const ScanPointsConfig& config);
 
 }  // namespace coop::slam

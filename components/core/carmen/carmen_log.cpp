@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <numbers>
 #include <system_error>
 
@@ -13,6 +14,7 @@ namespace coop::carmen {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr Duration kLatestLine = std::chrono::seconds(10);
 
 std::unique_ptr<std::istream> open(const std::filesystem::path& path) {
   auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
@@ -91,6 +93,12 @@ double increment_of(std::size_t readings) {
     default:
       return readings > 0 ? std::numbers::pi / static_cast<double>(readings) : 0.0;
   }
+}
+
+Time* mutable_stamp(Record& record) {
+  if (auto* odometry = std::get_if<OdometryRecord>(&record)) return &odometry->stamp;
+  if (auto* laser = std::get_if<LaserRecord>(&record)) return &laser->stamp;
+  return nullptr;
 }
 
 double start_of(std::size_t readings) {
@@ -187,9 +195,21 @@ std::vector<Record> read_log(const std::filesystem::path& path, ReadReport* repo
   return records;
 }
 
-void sort_by_stamp(std::vector<Record>& records) {
+std::size_t sort_by_stamp(std::vector<Record>& records) {
+  std::size_t repaired = 0;
+  Time latest{};
+  for (Record& record : records) {
+    Time* stamp = mutable_stamp(record);
+    if (stamp == nullptr) continue;
+    if (*stamp < latest - kLatestLine) {
+      *stamp = latest;
+      ++repaired;
+    }
+    latest = std::max(latest, *stamp);
+  }
   std::ranges::stable_sort(
       records, {}, [](const Record& record) { return stamp_of(record).value_or(Time::min()); });
+  return repaired;
 }
 
 Odometry to_odometry(const OdometryRecord& record) {

@@ -114,8 +114,10 @@ class LogReader {
                                            ReadReport* report = nullptr);
 
 /// Orders records by stamp, for playback and algorithms on one time line; equal stamps keep the
-/// file's order, parameters come first.
-void sort_by_stamp(std::vector<Record>& records);
+/// file's order, parameters come first. A stamp more than 10 s before one ahead of it in the file
+/// is no late line but a wrong one (real logs hold 2.48584e-91): it is set to that one first, so
+/// the record keeps its place. Returns how many were.
+std::size_t sort_by_stamp(std::vector<Record>& records);
 
 /// One line of the log, ended by a newline, for the reader; lasers in the newer form, which carries
 /// its geometry. Poses are rounded to a micrometre, readings to four digits.

@@ -15,6 +15,26 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
+/// Digits, and digits after a point: exact to the nanosecond, where a double is not.
+std::optional<Duration> parse_decimal_seconds(std::string_view text) {
+  const auto dot = text.find('.');
+  const std::string_view whole = text.substr(0, dot);
+  const std::string_view fraction = dot == std::string_view::npos ? "" : text.substr(dot + 1);
+  std::int64_t whole_seconds = 0;
+  const auto [end, error] =
+      std::from_chars(whole.data(), whole.data() + whole.size(), whole_seconds);
+  const bool digits_only = fraction.find_first_not_of("0123456789") == std::string_view::npos;
+  if (error != std::errc{} || end != whole.data() + whole.size() || whole_seconds < 0 ||
+      whole_seconds > kMaxSeconds || !digits_only) {
+    return std::nullopt;
+  }
+  std::int64_t nanoseconds = 0;
+  for (std::size_t i = 0; i < 9; ++i) {
+    nanoseconds = nanoseconds * 10 + (i < fraction.size() ? fraction[i] - '0' : 0);
+  }
+  return Duration(whole_seconds * 1'000'000'000 + nanoseconds);
+}
+
 [[noreturn]] void reject(std::string_view what, std::string_view found) {
   throw FormatError(
       "expected " + std::string(what) +
@@ -60,22 +80,13 @@ Pose2 FieldCursor::pose(std::string_view what) {
 
 Time FieldCursor::stamp(std::string_view what) {
   const std::string_view found = word(what);
-  const auto dot = found.find('.');
-  const std::string_view whole = found.substr(0, dot);
-  const std::string_view fraction = dot == std::string_view::npos ? "" : found.substr(dot + 1);
-  std::int64_t whole_seconds = 0;
-  const auto [end, error] =
-      std::from_chars(whole.data(), whole.data() + whole.size(), whole_seconds);
-  const bool digits_only = fraction.find_first_not_of("0123456789") == std::string_view::npos;
-  if (error != std::errc{} || end != whole.data() + whole.size() || whole_seconds < 0 ||
-      whole_seconds > kMaxSeconds || !digits_only) {
+  const auto exact = parse_decimal_seconds(found);
+  if (exact) return Time(*exact);
+  const auto rounded = parse_number(found);  // some loggers write 1.01893e+09, or nonsense
+  if (!rounded || !(std::abs(*rounded) <= static_cast<double>(kMaxSeconds))) {
     reject(std::string(what) + " in seconds", found);
   }
-  std::int64_t nanoseconds = 0;
-  for (std::size_t i = 0; i < 9; ++i) {
-    nanoseconds = nanoseconds * 10 + (i < fraction.size() ? fraction[i] - '0' : 0);
-  }
-  return Time(Duration(whole_seconds * 1'000'000'000 + nanoseconds));
+  return time_from_seconds(*rounded);
 }
 
 std::vector<float> FieldCursor::values(std::string_view what) {

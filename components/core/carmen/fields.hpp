@@ -18,7 +18,7 @@ class FieldCursor {
   std::string_view word(std::string_view what);
   double number(std::string_view what);  ///< finite
   Pose2 pose(std::string_view what);
-  /// Seconds as a decimal number, exact to the nanosecond, not negative.
+  /// Seconds: a plain decimal is exact to the nanosecond.
   Time stamp(std::string_view what);
   /// A count and as many numbers; infinities and NaN are allowed.
   std::vector<float> values(std::string_view what);

@@ -112,12 +112,15 @@ OccupancyGrid load_map(const std::filesystem::path& yaml_path) {
   return to_grid(parse_pgm(read_file(image_path), image_path.string()), metadata);
 }
 
-void save_map(const OccupancyGrid& grid, const std::filesystem::path& stem) {
-  std::filesystem::path base = stem;
-  if (base.extension() == ".yaml" || base.extension() == ".pgm") base.replace_extension();
-  const auto with_suffix = [&](const char* suffix) {
-    return std::filesystem::path(base.string() + suffix);
-  };
+std::filesystem::path stem_of(const std::filesystem::path& path) {
+  std::filesystem::path stem = path;
+  if (stem.extension() == ".yaml" || stem.extension() == ".pgm") stem.replace_extension();
+  return stem;
+}
+
+void save_map(const OccupancyGrid& grid, const std::filesystem::path& path) {
+  const std::string stem = stem_of(path).string();
+  const auto with_suffix = [&](const char* suffix) { return std::filesystem::path(stem + suffix); };
   MapMetadata metadata;
   metadata.image = with_suffix(".pgm").filename().string();
   metadata.resolution = grid.geometry.resolution;

@@ -35,9 +35,11 @@ struct MapMetadata {
 /// missing) or MapError.
 [[nodiscard]] OccupancyGrid load_map(const std::filesystem::path& yaml_path);
 
-/// Writes `stem`.pgm and then `stem`.yaml, each atomically: who finds the YAML finds the image. A
-/// trailing `.yaml` or
-/// `.pgm` of the path is taken off first. Throws std::system_error.
-void save_map(const OccupancyGrid& grid, const std::filesystem::path& stem);
+/// The path without a trailing `.yaml` or `.pgm`.
+[[nodiscard]] std::filesystem::path stem_of(const std::filesystem::path& path);
+
+/// Writes `stem`.pgm and then `stem`.yaml, each atomically: who finds the YAML finds the image.
+/// `path` is the stem, or either file. Throws std::system_error.
+void save_map(const OccupancyGrid& grid, const std::filesystem::path& path);
 
 }  // namespace coop::map
