@@ -85,7 +85,7 @@ DrivableSearch::DrivableSearch(const DrivableConfig& config, double min_turning_
 Result<DrivablePath, DrivableFailure> DrivableSearch::plan(const World& world, const Pose2& start,
                                                            const Pose2& goal, int direction) {
   clear();
-  open(world, goal, {start, 0.0F, -1, 0, static_cast<std::int8_t>(direction), false});
+  open(world, goal, {start, 0.0F, -1, 0.0F, 0, static_cast<std::int8_t>(direction), false});
   std::size_t expanded = 0;
   std::size_t next_shot = 0;
   while (!open_.empty()) {
@@ -177,13 +177,18 @@ void DrivableSearch::expand(const World& world, const Pose2& goal, std::int32_t 
   const double half_curvature = 0.5 / curves_.turning_radius();
   for (const int direction : {1, -1}) {
     for (int steering = -2; steering <= 2; ++steering) {
-      const Arc arc{direction * config_.step, steering * half_curvature};
-      const double cost = arc_cost(world, node.pose, arc);
-      if (cost == kInfinity) continue;
-      const double change = change_cost(node.direction, node.steering * half_curvature, arc);
+      Arc arc{direction * config_.step, steering * half_curvature};
+      double cost = arc_cost(world, node.pose, arc);
+      if (cost == kInfinity) {  // in a corner there may be room for half a step
+        arc.length *= 0.5;
+        cost = arc_cost(world, node.pose, arc);
+        if (cost == kInfinity) continue;
+      }
+      cost += change_cost(node.direction, node.steering * half_curvature, arc);
       open(world, goal,
-           {advance(node.pose, arc), static_cast<float>(node.cost + cost + change), index,
-            static_cast<std::int8_t>(steering), static_cast<std::int8_t>(direction), false});
+           {advance(node.pose, arc), static_cast<float>(node.cost + cost), index,
+            static_cast<float>(arc.length), static_cast<std::int8_t>(steering),
+            static_cast<std::int8_t>(direction), false});
     }
   }
 }
@@ -274,8 +279,7 @@ DrivablePath DrivableSearch::trace() const {
   path.cost = best_cost_;
   for (std::int32_t i = best_node_; nodes_[static_cast<std::size_t>(i)].parent >= 0;) {
     const Node& node = nodes_[static_cast<std::size_t>(i)];
-    path.arcs.push_back(
-        {node.direction * config_.step, node.steering * 0.5 / curves_.turning_radius()});
+    path.arcs.push_back({node.length, node.steering * 0.5 / curves_.turning_radius()});
     i = node.parent;
   }
   std::reverse(path.arcs.begin(), path.arcs.end());

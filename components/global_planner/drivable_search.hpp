@@ -6,7 +6,7 @@
 #include "core/config/fields.hpp"
 #include "core/pose.hpp"
 #include "core/result.hpp"
-#include "global_planner/dijkstra.hpp"
+#include "core/search/dijkstra.hpp"
 #include "global_planner/pose_checker.hpp"
 #include "global_planner/reeds_shepp.hpp"
 #include "global_planner/turning_distance.hpp"
@@ -24,8 +24,8 @@ struct DrivableConfig {
   double clearance_weight = 3.0;     ///< extra cost of a metre driven without any
   double approach_length = 0.8;      ///< m: straight line on which the goal is to be approached
   double short_approach_cost = 5.0;  ///< m for each metre missing of it
-  double greed = 1.4;                ///< weight of the estimated rest of the way
-  double suboptimality = 0.4;        ///< ends when nothing can be cheaper by more than this part
+  double greed = 1.2;                ///< weight of the estimated rest of the way
+  double suboptimality = 0.2;        ///< ends when nothing can be cheaper by more than this part
   int max_states = 150000;           ///< the search gives up after this many
 
   void describe(config::Fields& fields);
@@ -73,6 +73,7 @@ class DrivableSearch {
     Pose2 pose;
     float cost;
     std::int32_t parent;
+    float length;           ///< m driven from the parent, negative: backwards
     std::int8_t steering;   ///< -2 .. 2: part of the largest curvature in halves
     std::int8_t direction;  ///< 1, -1; 0 at rest
     bool closed;

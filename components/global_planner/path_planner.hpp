@@ -10,9 +10,9 @@
 #include "core/costmap/costmap.hpp"
 #include "core/pose.hpp"
 #include "core/result.hpp"
-#include "global_planner/dijkstra.hpp"
+#include "core/search/dijkstra.hpp"
 #include "global_planner/drivable_search.hpp"
-#include "global_planner/grid_planner.hpp"
+#include "core/search/grid_planner.hpp"
 #include "global_planner/pose_checker.hpp"
 
 namespace coop::global_planner {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/pose.hpp"
-#include "global_planner/grid_planner.hpp"
+#include "core/search/grid_planner.hpp"
 
 namespace coop::global_planner {
 

@@ -105,8 +105,8 @@ const Options& Node::options() const {
   return impl_->options;
 }
 
-const TransformBuffer& Node::transforms() {
-  if (!impl_->listener) impl_->listener = std::make_unique<TransformListener>(*this);
+const TransformBuffer& Node::transforms(Duration history) {
+  if (!impl_->listener) impl_->listener = std::make_unique<TransformListener>(*this, history);
   return impl_->listener->buffer();
 }
 

@@ -81,7 +81,9 @@ class Node {
   [[nodiscard]] const std::string& name() const { return options().name; }
 
   /// Fed from tf and tf_static; subscribed to at the first call, so call it in the constructor.
-  [[nodiscard]] const TransformBuffer& transforms();
+  /// `history` counts at that first call: how long samples are kept behind the newest of their
+  /// frame.
+  [[nodiscard]] const TransformBuffer& transforms(Duration history = std::chrono::seconds(15));
   void publish_transform(std::string_view parent, std::string_view child, Time stamp,
                          const Pose3& child_in_parent);
   void publish_transform(std::string_view parent, std::string_view child, Time stamp,

@@ -6,7 +6,7 @@
 
 namespace coop::runtime {
 
-TransformListener::TransformListener(Node& node) {
+TransformListener::TransformListener(Node& node, Duration history) : buffer_(history) {
   node.subscribe<tf2_msgs::msg::TFMessage>(
       "tf_static", Qos::kStateLatched,
       [this, &node](const tf2_msgs::msg::TFMessage& message) { receive(node, message, true); });

@@ -11,7 +11,7 @@ namespace coop::runtime {
 /// Fills a buffer from tf and tf_static.
 class TransformListener {
  public:
-  explicit TransformListener(Node& node);
+  TransformListener(Node& node, Duration history);
   [[nodiscard]] const TransformBuffer& buffer() const { return buffer_; }
   void clear() { buffer_.clear_history(); }
 

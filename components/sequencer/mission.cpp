@@ -24,6 +24,8 @@ void MissionConfig::describe(config::Fields& fields) {
                 {.unit = "m", .help = "a goal that moved this much is told anew", .min = 0.001});
   fields.number("refresh_until", refresh_until,
                 {.unit = "m", .help = "nearer than this the goal stays", .min = 0});
+  fields.number("waypoint_radius", waypoint_radius,
+                {.unit = "m", .help = "a waypoint this near is reached", .min = 0, .max = 10});
   fields.number("settle_time", settle_time,
                 {.unit = "s", .help = "standing still before reach is judged", .min = 0});
   fields.flag("return_home", return_home, {.help = "drive back to where the mission began"});
@@ -165,7 +167,12 @@ void Mission::step_waypoints(const MissionSnapshot& snapshot, Time now) {
     return;
   }
   const NavigationReport result = drive_result(snapshot, now);
-  if (result.state == NavigationReport::State::kUnderWay) {
+  // A waypoint is there to be seen from, not to be stood on; only the last one is driven to its
+  // end.
+  const bool passes =
+      state_.next_waypoint + 1 < state_.waypoints.size() &&
+      distance(*snapshot.robot_in_map, waypoint.pose_in_map) < config_.waypoint_radius;
+  if (result.state == NavigationReport::State::kUnderWay && !passes) {
     repeat_goal(now);
     return;
   }

@@ -21,6 +21,7 @@ struct MissionConfig {
   double pick_timeout = 60.0;      ///< s for one pick
   double refresh_distance = 0.04;  ///< m, an approach pose that moved this much is told anew
   double refresh_until = 0.5;      ///< m from the goal; nearer it stays as it is
+  double waypoint_radius = 0.6;    ///< m, a waypoint this near is reached: the robot drives on
   double settle_time = 0.5;        ///< s of standing still before reach is judged
   bool return_home = false;        ///< drive back to where the mission began
 

@@ -98,6 +98,18 @@ TEST_F(MissionTest, ASurveyDrivesItsWaypointsInOrderAndReportsTheOnesItMissed) {
   EXPECT_EQ(mission_.state().detail, "1 of 2 waypoints reached");
 }
 
+TEST_F(MissionTest, AWaypointInPassingNeedsNoArrival) {
+  mission_.start(MissionKind::kSurvey, "m", {{"gate", {3, 0, 0}}, {"pond", {9, 0, 0}}});
+  step();
+  robot_ = Pose2{2.5, 0.2, 1.0};
+  step();
+  step();
+  EXPECT_DOUBLE_EQ(goals_.back().pose_in_map.x, 9);
+  robot_ = Pose2{8.9, 0, 0};
+  step();
+  EXPECT_TRUE(mission_.state().is_active()) << "the last one is driven to its end";
+}
+
 TEST_F(MissionTest, TwoEggsAreSearchedOrderedDrivenToAndPicked) {
   mission_.start(MissionKind::kCollect, "m", {{"gate", {1, 0, 0}}});
   step();
