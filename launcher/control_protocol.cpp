@@ -93,6 +93,7 @@ Result<ControlReply> decode_reply(std::string_view line) {
 }
 
 std::vector<std::filesystem::path> control_folders() {
+  if (const char* chosen = std::getenv("COOP_RUNTIME_DIR")) return {chosen};
   std::vector<std::filesystem::path> folders;
   const std::string user = std::to_string(getuid());
   if (const char* runtime = std::getenv("XDG_RUNTIME_DIR"); runtime != nullptr && *runtime == '/') {

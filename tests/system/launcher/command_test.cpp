@@ -19,7 +19,7 @@ class LauncherCommandTest : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(system_.wait_until_ready()) << system_.launcher().output(); }
   [[nodiscard]] std::filesystem::path socket() const {
-    return control_folder() / "coop" / (std::to_string(system_.domain()) + ".sock");
+    return control_folder() / (std::to_string(system_.domain()) + ".sock");
   }
   LaunchText launch_;
   RunningSystem system_{launch_.add("a").add("b", "", "after: [a]").file()};

@@ -33,8 +33,8 @@ std::filesystem::path program_path(const std::string& name) {
 
 const std::filesystem::path& control_folder() {
   static const TemporaryFolder folder;
-  static const bool is_set = setenv("XDG_RUNTIME_DIR", folder.path().c_str(), 1) == 0;
-  if (!is_set) throw std::runtime_error("cannot set XDG_RUNTIME_DIR");
+  static const bool is_set = setenv("COOP_RUNTIME_DIR", folder.path().c_str(), 1) == 0;
+  if (!is_set) throw std::runtime_error("cannot set COOP_RUNTIME_DIR");
   return folder.path();
 }
 

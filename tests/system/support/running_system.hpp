@@ -24,7 +24,7 @@ inline constexpr milliseconds kSoon{20000};
 bool wait_until(const std::function<bool()>& condition, milliseconds limit = kSoon);
 
 /// Control sockets of this test process lie in a folder of its own, away from systems a person
-/// runs: sets XDG_RUNTIME_DIR for it and what it starts.
+/// runs: sets COOP_RUNTIME_DIR for it and what it starts.
 const std::filesystem::path& control_folder();
 
 /// Whether a process (no zombie) of this id lives.
