@@ -116,17 +116,19 @@ void PickSequence::take(const PickOrder& order) {
 }
 
 void PickSequence::start(const PickOrder& order) {
-  auto touches = motion_.touches(order.egg_in_base);
   record_.running = RunningPick{order.pick_id, order.egg_id, PickStage::kStarted};
   out_.record_changed = true;
   ending_.reset();
+  if (!order.egg_in_base) {
+    finish(PickOutcome::kAborted, order.egg_in_base.error());
+    return conclude();
+  }
+  const auto touches = motion_.touches(*order.egg_in_base);
   if (!touches) {
     const bool limit = touches.error() == IkError::kJointLimit;
-    ending_ = PickReport{order.pick_id, order.egg_id,
-                         limit ? PickOutcome::kJointLimit : PickOutcome::kOutOfReach,
-                         "the egg is " + std::string(to_string(touches.error()))};
-    conclude();
-    return;
+    finish(limit ? PickOutcome::kJointLimit : PickOutcome::kOutOfReach,
+           "the egg is " + std::string(to_string(touches.error())));
+    return conclude();
   }
   touches_.assign(touches->rbegin(), touches->rend());
   first_touch_ = true;

@@ -27,7 +27,8 @@ struct PickSequenceConfig {
 struct PickOrder {
   std::string pick_id;
   std::string egg_id;
-  Eigen::Vector2d egg_in_base{0, 0};  ///< of its centre, m
+  /// Of its centre, m; or why that is not known, which aborts the pick.
+  Result<Eigen::Vector2d> egg_in_base{Eigen::Vector2d(0, 0)};
 };
 
 struct ArmInputs {

@@ -1,7 +1,7 @@
 #include "arm_driver/node/arm_driver_node.hpp"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <system_error>
 
 #include "arm_driver/simulated_arm.hpp"
@@ -128,19 +128,22 @@ void ArmDriverNode::announce(const robot::RobotModel& model) {
 }
 
 void ArmDriverNode::receive(const coop_msgs::msg::Pick& message) {
-  const auto position = conversions::from_msg(message.position());
-  if (!position || message.pick_id().empty() || message.header().frame_id().empty()) {
-    node_.log().warning("pick '{}' refused: {}", message.pick_id(),
-                        position ? "pick_id or frame_id is empty" : position.error());
-    if (!message.pick_id().empty()) {
-      tell({message.pick_id(), message.egg_id(), PickOutcome::kAborted, "the order is no order"});
-    }
+  if (message.pick_id().empty()) {
+    node_.log().warning("refused a pick without pick_id");
     return;
   }
-  node_.log().info("pick {} of egg {} at ({:.3f}, {:.3f}) in {}", message.pick_id(),
-                   message.egg_id(), position->x(), position->y(), message.header().frame_id());
-  PickOrder order{message.pick_id(), message.egg_id(), Eigen::Vector2d::Zero()};
-  waiting_.push_back({std::move(order), message.header().frame_id(), *position, node_.now()});
+  const auto is_this = [&](const Waiting& waiting) {
+    return waiting.order.pick_id == message.pick_id();
+  };
+  if (std::any_of(waiting_.begin(), waiting_.end(), is_this)) return;
+  const std::string& frame = message.header().frame_id();
+  auto position = conversions::from_msg(message.position());
+  if (frame.empty()) position = fail("frame_id is empty");
+  if (!sequence_->knows(message.pick_id())) {
+    node_.log().info("pick {} of egg {} at ({:.3f}, {:.3f}) in {}", message.pick_id(),
+                     message.egg_id(), message.position().x(), message.position().y(), frame);
+  }
+  waiting_.push_back({{message.pick_id(), message.egg_id()}, frame, position, node_.now()});
 }
 
 Result<Pose3> ArmDriverNode::frame_in_base(const std::string& frame) {
@@ -156,22 +159,27 @@ Result<Pose3> ArmDriverNode::frame_in_base(const std::string& frame) {
   return *pose;
 }
 
+bool ArmDriverNode::place(Waiting& waiting) {
+  if (sequence_->knows(waiting.order.pick_id)) return true;
+  auto& egg_in_base = waiting.order.egg_in_base;
+  if (!waiting.egg_in_frame) {
+    egg_in_base = fail(waiting.egg_in_frame.error());
+    return true;
+  }
+  const auto pose = frame_in_base(waiting.frame);
+  if (pose) {
+    egg_in_base = Eigen::Vector2d((*pose * *waiting.egg_in_frame).head<2>());
+    return true;
+  }
+  if (node_.now() - waiting.since < seconds(config_.transform_patience)) return false;
+  egg_in_base = fail("no transform from " + waiting.frame + " to base_link: " + pose.error());
+  return true;
+}
+
 void ArmDriverNode::place_orders() {
   orders_.clear();
-  while (!waiting_.empty()) {
-    Waiting& next = waiting_.front();
-    if (!sequence_->knows(next.order.pick_id)) {
-      const auto pose = frame_in_base(next.frame);
-      if (!pose) {
-        if (node_.now() - next.since < seconds(config_.transform_patience)) return;
-        tell({next.order.pick_id, next.order.egg_id, PickOutcome::kAborted,
-              "no transform from " + next.frame + " to base_link: " + pose.error()});
-        waiting_.pop_front();
-        continue;
-      }
-      next.order.egg_in_base = (*pose * next.egg_in_frame).head<2>();
-    }
-    orders_.push_back(std::move(next.order));
+  while (!waiting_.empty() && place(waiting_.front())) {
+    orders_.push_back(std::move(waiting_.front().order));
     waiting_.pop_front();
   }
 }

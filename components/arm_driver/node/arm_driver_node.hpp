@@ -48,7 +48,7 @@ class ArmDriverNode {
   struct Waiting {
     PickOrder order;
     std::string frame;
-    Eigen::Vector3d egg_in_frame;
+    Result<Eigen::Vector3d> egg_in_frame;
     Time since;
   };
 
@@ -57,8 +57,10 @@ class ArmDriverNode {
   void subscribe();
   void announce(const robot::RobotModel& model);
   void receive(const coop_msgs::msg::Pick& message);
-  /// Moves orders whose place is known to orders_.
+  /// Moves orders whose place is known, or will not be, to orders_.
   void place_orders();
+  /// False while there is hope for the place.
+  [[nodiscard]] bool place(Waiting& waiting);
   [[nodiscard]] Result<Pose3> frame_in_base(const std::string& frame);
   void tick();
   void save_record();

@@ -135,7 +135,11 @@ TEST_F(ArmDriverNodeTest, WithoutTheTransformAbortsAndSaysWhichIsMissing) {
   start_driver();
   fixture_.advance(seconds(1));
   order("p1", "map", {2.52, 2.1, 0.0225});
+  fixture_.advance(milliseconds(500));
+  order("p1", "map", {2.52, 2.1, 0.0225});
   ASSERT_TRUE(run_to_result(seconds(4)));
+  fixture_.advance(seconds(3));
+  ASSERT_EQ(results_->size(), 1U) << "said twice, answered once";
   EXPECT_EQ(results_->at(0).result(), coop_msgs::msg::PickResult_Constants::ABORTED);
   EXPECT_THAT(results_->at(0).detail(), testing::HasSubstr("map"));
 }

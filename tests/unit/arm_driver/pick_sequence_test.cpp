@@ -67,6 +67,7 @@ TEST(PickSequence, WhereNoEggLiesReportsNoVacuumWithThePumpOff) {
   BenchArm bench;
   bench.egg_exists = false;
   bench.order("p1");
+  const double start = bench.time;
   int touches = 0;
   Phase last = Phase::kIdle;
   ASSERT_TRUE(bench.run_until([&] {
@@ -76,18 +77,31 @@ TEST(PickSequence, WhereNoEggLiesReportsNoVacuumWithThePumpOff) {
     return !bench.reports.empty();
   }));
   EXPECT_EQ(touches, 7);
+  EXPECT_LT(bench.time - start, 20.0);
   EXPECT_EQ(bench.reports[0].outcome, PickOutcome::kNoVacuum);
   EXPECT_FALSE(bench.arm().suction);
 }
 
 TEST(PickSequence, FarEggIsRefusedWithoutAMovement) {
   BenchArm bench;
-  bench.orders.push_back({"far", "egg", {2.0, 0.0}});
+  bench.orders.push_back({"far", "egg", Eigen::Vector2d(2.0, 0.0)});
   bench.run_for(0.5);
   ASSERT_EQ(bench.reports.size(), 1U);
   EXPECT_EQ(bench.reports[0].outcome, PickOutcome::kOutOfReach);
   EXPECT_LT((bench.arm().positions - bench.motion().home()).norm(), 1e-9);
   EXPECT_FALSE(bench.step().busy);
+}
+
+TEST(PickSequence, OrderWithoutAPlaceIsAbortedForGood) {
+  BenchArm bench;
+  bench.orders.push_back({"p1", "egg", fail("no transform")});
+  bench.run_for(0.5);
+  bench.order("p1");
+  bench.run_for(10.0);
+  ASSERT_EQ(bench.reports.size(), 2U);
+  EXPECT_EQ(bench.reports[0], (PickReport{"p1", "egg", PickOutcome::kAborted, "no transform"}));
+  EXPECT_EQ(bench.reports[1], bench.reports[0]) << "the base may be driving by now";
+  EXPECT_EQ(bench.taken, 0);
 }
 
 TEST(PickSequence, AnotherOrderWhileOneRunsIsBusyAndForgotten) {
