@@ -37,8 +37,9 @@ void SlamNodeConfig::describe(config::Fields& fields) {
                 {.unit = "s", .help = "between map -> odom", .min = 0.01, .max = 0.1});
   fields.number("transform_tolerance", transform_tolerance,
                 {.unit = "s", .help = "map -> odom is dated ahead by", .min = 0.0, .max = 1.0});
-  fields.number("scan_timeout", scan_timeout,
-                {.unit = "s", .help = "without a scan until degraded", .min = 0.1, .max = 3600});
+  fields.number(
+      "scan_timeout", scan_timeout,
+      {.unit = "s", .help = "without a scan until degraded; 0: never", .min = 0.0, .max = 3600});
   fields.number("odometry_patience", odometry_patience,
                 {.unit = "s",
                  .help = "a scan waits for its odometry; with reliable streams for ever",
@@ -57,15 +58,22 @@ SlamNode::SlamNode(runtime::Node& node, const Config& config)
           node.advertise<coop_msgs::msg::SaveMapResult>("save_map_result", Qos::kEvent)) {
   start_anew();
   subscribe();
-  node.every(kPeriod, [this] { process_scans(kScansPerCall); });
+  node.every(kPeriod, [this] {
+    clock_ = node_.now();
+    process_scans(kScansPerCall);
+  });
   node.every(seconds(config.transform_period), [this] { publish_transform(); });
   node.every(seconds(config.map_period), [this] { publish_map(); });
   node.every(std::chrono::milliseconds(500), [this] { report_health(); });
-  node.on_clock_jump([this] {
-    if (filter_->has_map()) node_.log().warning("the clock was set back: the map starts anew");
-    start_anew();
-  });
+  node.on_clock_jump([this] { handle_clock_jump(); });
   node.on_stop([this] { finish(); });
+}
+
+/// The clock's first word is no reason to forget what came just before it.
+void SlamNode::handle_clock_jump() {
+  if (clock_ == Time{} || node_.now() >= clock_) return;
+  if (filter_->has_map()) node_.log().warning("the clock was set back: the map starts anew");
+  start_anew();
 }
 
 void SlamNode::start_anew() {
@@ -121,8 +129,10 @@ bool SlamNode::process(const LaserScan& scan) {
   const auto laser_in_base = transforms_.lookup("base_link", scan.frame_id, scan.stamp);
   if (base_in_odom && end_in_odom && laser_in_base) {
     const Pose2 sweep = base_in_odom->inverse() * *end_in_odom;
-    map_changed_ =
-        filter_->update(scan, *base_in_odom, to_pose2(*laser_in_base), sweep).used || map_changed_;
+    const auto outcome = filter_->update(scan, *base_in_odom, to_pose2(*laser_in_base), sweep);
+    ++taken_;
+    used_ += outcome.used ? 1 : 0;
+    map_changed_ = map_changed_ || outcome.used;
     return true;
   }
   const bool too_old = !base_in_odom && base_in_odom.error() == OdometryTrack::Absence::kTooOld;
@@ -152,17 +162,17 @@ void SlamNode::publish_map() {
 
 void SlamNode::report_health() {
   const Time now = node_.now();
-  if (last_scan_ == Time{}) {
-    node_.set_ready();  // nothing was promised yet
-  } else if (now - last_scan_ > seconds(config_.scan_timeout)) {
+  const bool waits =
+      !waiting_.empty() && now - waiting_.front().stamp > seconds(config_.odometry_patience);
+  if (waits && !odometry_.at(waiting_.front().stamp)) {
+    node_.set_degraded("no odometry for the scans");
+  } else if (waits && !node_.options().reliable_streams) {
+    node_.set_degraded("scans wait: too many, or the mount of the laser is not known");
+  } else if (config_.scan_timeout > 0.0 && last_scan_ != Time{} &&
+             now - last_scan_ > seconds(config_.scan_timeout)) {
     node_.set_degraded("no scan");
-  } else if (!waiting_.empty() &&
-             now - waiting_.front().stamp > seconds(config_.odometry_patience)) {
-    node_.set_degraded(odometry_.at(waiting_.front().stamp)
-                           ? "no time to map all scans, or no mount of the laser"
-                           : "no odometry for the scans");
   } else {
-    node_.set_ready();
+    node_.set_ready();  // also before the first scan: nothing was promised yet
   }
 }
 
@@ -196,9 +206,11 @@ void SlamNode::save(const std::filesystem::path& path) {
 }
 
 void SlamNode::finish() {
+  if (!waiting_.empty()) node_.log().info("{} scans wait and are mapped first", waiting_.size());
   while (process_scans(1)) {
   }
   dropped_ += waiting_.size();
+  node_.log().info("{} scans taken, {} of them drawn into the map", taken_, used_);
   if (dropped_ > 0)
     node_.log().warning("{} scans were not mapped for want of odometry or mount", dropped_);
   if (config_.save_path.empty()) return;

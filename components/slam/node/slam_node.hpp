@@ -22,7 +22,7 @@ struct SlamNodeConfig {
   double map_period = 1.0;  ///< s between maps
   double transform_period = 0.05;    ///< s between map -> odom
   double transform_tolerance = 0.1;  ///< s that map -> odom is dated ahead
-  double scan_timeout = 2.0;         ///< s without a scan before the component is degraded
+  double scan_timeout = 2.0;         ///< s without a scan until degraded; 0: never
   double odometry_patience =
       2.0;  ///< s a scan waits for its odometry; with reliable streams: for ever
   SlamConfig slam;
@@ -40,6 +40,7 @@ class SlamNode {
 
  private:
   void subscribe();
+  void handle_clock_jump();
   void start_anew();
   /// Maps up to `limit` of the scans that wait. Answers whether there was one.
   bool process_scans(int limit);
@@ -58,7 +59,10 @@ class SlamNode {
   std::unique_ptr<ParticleFilter> filter_;
   OdometryTrack odometry_;
   std::deque<LaserScan> waiting_;
-  std::size_t dropped_ = 0;
+  std::size_t taken_ = 0;    ///< scans
+  std::size_t used_ = 0;     ///< of them: drawn into the map
+  std::size_t dropped_ = 0;  ///< scans without odometry
+  Time clock_{};
   Time last_scan_{};  ///< by the clock, when it came
   bool map_changed_ = false;
   runtime::Publisher<nav_msgs::msg::OccupancyGrid> map_publisher_;
