@@ -1,6 +1,5 @@
 #include "arm_driver/node/arm_driver_node.hpp"
 
-#include <algorithm>
 #include <array>
 #include <system_error>
 
@@ -38,11 +37,7 @@ void ArmDriverConfig::describe(config::Fields& fields) {
   fields.choice("backend", backend, kBackends, {.help = "what stands behind the driver"});
   fields.text("journal", journal, {.help = "file of the picks, in the run's folder; empty: none"});
   fields.text("memory", memory, {.help = "file of the simulated arm's posture, likewise"});
-  fields.number(
-      "max_transform_age", max_transform_age,
-      {.unit = "s", .help = "of the robot's pose when a pick begins", .min = 0, .max = 60});
-  fields.number("transform_patience", transform_patience,
-                {.unit = "s", .help = "waiting for that pose", .min = 0, .max = 60});
+  fields.section("orders", orders);
   fields.section("motion", motion);
   fields.section("pick", pick);
 }
@@ -63,7 +58,9 @@ ArmDriverNode::ArmDriverNode(runtime::Node& node, const Config& config)
   description_ = node.advertise<std_msgs::msg::String>("robot_description", Qos::kStateLatched);
   transforms_ = node.advertise<tf2_msgs::msg::TFMessage>("tf", Qos::kEvent);
   announce(robot::RobotModel::load(config.robot));
-  (void)node.transforms();  // listens from now on
+  inbox_ = std::make_unique<PickInbox>(
+      config.orders, node.transforms(),
+      [this](std::string_view pick_id) { return sequence_->knows(pick_id); });
   subscribe();
   open_device();
   node.every(kTick, [this] { tick(); });
@@ -132,64 +129,20 @@ void ArmDriverNode::receive(const coop_msgs::msg::Pick& message) {
     node_.log().warning("refused a pick without pick_id");
     return;
   }
-  const auto is_this = [&](const Waiting& waiting) {
-    return waiting.order.pick_id == message.pick_id();
-  };
-  if (std::any_of(waiting_.begin(), waiting_.end(), is_this)) return;
-  const std::string& frame = message.header().frame_id();
-  auto position = conversions::from_msg(message.position());
-  if (frame.empty()) position = fail("frame_id is empty");
   if (!sequence_->knows(message.pick_id())) {
     node_.log().info("pick {} of egg {} at ({:.3f}, {:.3f}) in {}", message.pick_id(),
-                     message.egg_id(), message.position().x(), message.position().y(), frame);
+                     message.egg_id(), message.position().x(), message.position().y(),
+                     message.header().frame_id());
   }
-  waiting_.push_back({{message.pick_id(), message.egg_id()}, frame, position, node_.now()});
-}
-
-Result<Pose3> ArmDriverNode::frame_in_base(const std::string& frame) {
-  if (frame == robot::kBaseLink) return Pose3::Identity();
-  // The egg keeps its place in a fixed frame while the robot drives: what counts is where the robot
-  // stands now, not where it stood at the order's stamp.
-  const auto newest = node_.transforms().newest_stamp(robot::kBaseLink, frame);
-  if (!newest) return fail(std::string(to_string(newest.error())));
-  const Time stamp = *newest == Time::max() ? node_.now() : *newest;
-  if (node_.now() - stamp > seconds(config_.max_transform_age)) return fail("it is too old");
-  const auto pose = node_.transforms().lookup(robot::kBaseLink, frame, stamp);
-  if (!pose) return fail(std::string(to_string(pose.error())));
-  return *pose;
-}
-
-bool ArmDriverNode::place(Waiting& waiting) {
-  if (sequence_->knows(waiting.order.pick_id)) return true;
-  auto& egg_in_base = waiting.order.egg_in_base;
-  if (!waiting.egg_in_frame) {
-    egg_in_base = fail(waiting.egg_in_frame.error());
-    return true;
-  }
-  const auto pose = frame_in_base(waiting.frame);
-  if (pose) {
-    egg_in_base = Eigen::Vector2d((*pose * *waiting.egg_in_frame).head<2>());
-    return true;
-  }
-  if (node_.now() - waiting.since < seconds(config_.transform_patience)) return false;
-  egg_in_base = fail("no transform from " + waiting.frame + " to base_link: " + pose.error());
-  return true;
-}
-
-void ArmDriverNode::place_orders() {
-  orders_.clear();
-  while (!waiting_.empty() && place(waiting_.front())) {
-    orders_.push_back(std::move(waiting_.front().order));
-    waiting_.pop_front();
-  }
+  inbox_->receive(message, node_.now());
 }
 
 void ArmDriverNode::tick() {
   const Time now = node_.now();
   const ArmReading reading = device_->read(now);
-  place_orders();
   const ArmOutputs& outputs = sequence_->step(
-      {reading.positions, reading.suction, reading.vacuum, stops_.engaged(), orders_}, now);
+      {reading.positions, reading.suction, reading.vacuum, stops_.engaged(), inbox_->take(now)},
+      now);
   if (outputs.record_changed) save_record();
   device_->command(outputs.target, outputs.suction, now);
   for (const PickReport& report : outputs.reports) tell(report);

@@ -8,12 +8,12 @@
 #include <std_msgs/msg/String.h>
 #include <tf2_msgs/msg/TFMessage.h>
 
-#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "arm_driver/arm_device.hpp"
+#include "arm_driver/node/pick_inbox.hpp"
 #include "arm_driver/pick_sequence.hpp"
 #include "core/stamped.hpp"
 #include "core/vehicle/command_gate.hpp"
@@ -26,8 +26,7 @@ struct ArmDriverConfig {
   std::string backend = "sim";
   std::string journal = "arm_driver.journal";  ///< in the run's folder; empty: none
   std::string memory = "arm_driver.posture";   ///< of the simulated arm, likewise
-  double max_transform_age = 1.0;              ///< s
-  double transform_patience = 2.0;             ///< s
+  PickInboxConfig orders;
   ArmMotionConfig motion;
   PickSequenceConfig pick;
 
@@ -44,24 +43,11 @@ class ArmDriverNode {
   ArmDriverNode(runtime::Node& node, const Config& config);
 
  private:
-  /// An order whose place in base_link is not known yet.
-  struct Waiting {
-    PickOrder order;
-    std::string frame;
-    Result<Eigen::Vector3d> egg_in_frame;
-    Time since;
-  };
-
   [[nodiscard]] PickRecord load_record();
   void open_device();
   void subscribe();
   void announce(const robot::RobotModel& model);
   void receive(const coop_msgs::msg::Pick& message);
-  /// Moves orders whose place is known, or will not be, to orders_.
-  void place_orders();
-  /// False while there is hope for the place.
-  [[nodiscard]] bool place(Waiting& waiting);
-  [[nodiscard]] Result<Pose3> frame_in_base(const std::string& frame);
   void tick();
   void save_record();
   void publish_state(const ArmReading& reading, bool busy);
@@ -75,8 +61,7 @@ class ArmDriverNode {
   std::unique_ptr<ArmDevice> device_;
   std::unique_ptr<PickSequence> sequence_;
   vehicle::EmergencyStops stops_;
-  std::deque<Waiting> waiting_;
-  std::vector<PickOrder> orders_;
+  std::unique_ptr<PickInbox> inbox_;
   std::vector<std::string> joint_names_;
   std::vector<StampedTransform> links_;
   std::uint64_t ticks_ = 0;
