@@ -39,9 +39,11 @@ void EggDetectorConfig::describe(config::Fields& fields) {
   fields.number("min_fill", min_fill,
                 {.unit = "1", .help = "area in the ellipse's", .min = 0, .max = 1});
   fields.number("min_height", min_height,
-                {.unit = "m", .help = "centre above the floor", .min = -1, .max = 1});
+                {.unit = "m", .help = "centre above the floor around", .min = -1, .max = 1});
   fields.number("max_height", max_height,
-                {.unit = "m", .help = "centre above the floor", .min = -1, .max = 1});
+                {.unit = "m", .help = "centre above the floor around", .min = -1, .max = 1});
+  fields.number("floor_tolerance", floor_tolerance,
+                {.unit = "m", .help = "centre off the floor plane", .min = 0, .max = 1});
   fields.number("pixel_stddev", pixel_stddev,
                 {.unit = "px", .help = "deviation of a centre", .min = 0.01, .max = 100});
   fields.number("depth_bias", depth_bias,
@@ -103,6 +105,35 @@ std::optional<EggDetector::SurfaceDepth> EggDetector::surface_depth(const Blob& 
   return surface;
 }
 
+double EggDetector::height_of(const Eigen::Vector3d& point) const {
+  return camera_in_base_.translation().z() + camera_in_base_.linear().row(2).dot(point);
+}
+
+double EggDetector::floor_around(const Blob& blob, const cv::Mat& depth) {
+  constexpr std::size_t kEnough = 12;
+  constexpr int kEdge = 1;  // px around the blob that may still show the egg
+  const cv::Rect inner(blob.box.x - kEdge, blob.box.y - kEdge, blob.box.width + 2 * kEdge,
+                       blob.box.height + 2 * kEdge);
+  const int reach = std::max(3, std::max(blob.box.width, blob.box.height) / 2);
+  const cv::Rect outer = cv::Rect(inner.x - reach, inner.y - reach, inner.width + 2 * reach,
+                                  inner.height + 2 * reach) &
+                         cv::Rect(0, 0, depth.cols, depth.rows);
+  heights_.clear();
+  for (int row = outer.y; row < outer.br().y; ++row) {
+    const auto* const mm = depth.ptr<std::uint16_t>(row);
+    const std::uint8_t* const shell = mask_.ptr(row);
+    for (int column = outer.x; column < outer.br().x; ++column) {
+      if (mm[column] == 0 || shell[column] != 0 || inner.contains({column, row})) continue;
+      heights_.push_back(height_of(0.001 * mm[column] * intrinsics_.ray(column, row)));
+    }
+  }
+  if (heights_.size() < kEnough) return 0.0;
+  // The lower quarter, as what else stands around stands above the floor.
+  const auto floor = heights_.begin() + static_cast<std::ptrdiff_t>(heights_.size() / 4);
+  std::nth_element(heights_.begin(), floor, heights_.end());
+  return *floor;
+}
+
 bool EggDetector::has_size_of_egg(double length, double width, double pixel) const {
   // Half a pixel more or less on each side of the outline.
   return length >= config_.min_length - pixel && length <= config_.max_length + pixel &&
@@ -135,9 +166,10 @@ std::optional<Detection> EggDetector::judge(const Blob& blob, const cv::Mat& dep
   const double width = 2.0 * blob.half_short * pixel;
   if (!has_size_of_egg(length, width, pixel)) return std::nullopt;
   const Eigen::Vector3d center = z * ray;
-  const double height = (camera_in_base_ * center).z();
-  const double slack = 2.0 * config_.depth_noise.stddev(z);
-  if (height < config_.min_height - slack || height > config_.max_height + slack) {
+  const double height = height_of(center);
+  const double above_floor = height - floor_around(blob, depth);
+  if (std::abs(height) > config_.floor_tolerance || above_floor < config_.min_height ||
+      above_floor > config_.max_height) {
     return std::nullopt;
   }
 

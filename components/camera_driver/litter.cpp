@@ -18,12 +18,13 @@ struct Scraps {
   Colour dark, pale;
 };
 
-constexpr std::array<Scraps, 5> kScraps{{
+constexpr std::array<Scraps, 6> kScraps{{
     {700, 0.02, 0.09, 0.003, 0.006, {120, 92, 56}, {206, 178, 122}},     // straw
     {500, 0.010, 0.028, 0.006, 0.014, {150, 118, 76}, {214, 186, 138}},  // shavings
     {250, 0.010, 0.030, 0.006, 0.020, {62, 46, 30}, {96, 72, 46}},       // dark crumbs
     {12, 0.008, 0.018, 0.006, 0.014, {176, 170, 152}, {214, 210, 198}},  // droppings
     {40, 0.004, 0.008, 0.003, 0.005, {210, 206, 196}, {240, 238, 232}},  // down
+    {1, 0.028, 0.060, 0.024, 0.045, {196, 190, 176}, {232, 230, 222}},   // pale patches, flat
 }};
 
 Colour blend(const Colour& a, const Colour& b, double ratio) {
