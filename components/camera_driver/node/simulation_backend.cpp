@@ -1,5 +1,7 @@
 #include "camera_driver/node/simulation_backend.hpp"
 
+#include <utility>
+
 #include "camera_driver/node/camera_driver_node.hpp"
 #include "conversions/world.hpp"
 
@@ -54,8 +56,8 @@ void SimulationBackend::receive_truth(const coop_msgs::msg::GroundTruth& message
   last_truth_ = truth->stamp;
   if (!camera_) return;
   const std::int64_t turn = to_nanoseconds(truth->stamp) / period_.count();
-  if (turn == last_turn_) return;
-  last_turn_ = turn;
+  const bool is_first = last_turn_ < 0;  // somewhere within a period: wait for its end
+  if (turn == std::exchange(last_turn_, turn) || is_first) return;
   camera_->take(*truth, frame_);
   topics_.publish(frame_, camera_->intrinsics());
   topics_.publish(frame_.stamp, detector_.detect(frame_));
