@@ -42,7 +42,20 @@ void TrackedPath::set(std::vector<Pose2> poses, const Pose2& robot) {
     }
     segments_.back().last = i;
   }
+  join(robot);
   follow(robot);
+}
+
+/// A plan begins where the robot is. One that began long ago (this program was restarted on the
+/// way) is joined where it fits best.
+void TrackedPath::join(const Pose2& robot) {
+  if (distance(poses_.front(), robot) < kSearchAhead) return;
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < poses_.size(); ++i) {
+    if (mismatch(poses_[i], robot) < mismatch(poses_[nearest], robot)) nearest = i;
+  }
+  progress_ = distances_[nearest];
+  while (!on_last_segment() && segment().last < nearest) ++segment_;
 }
 
 void TrackedPath::follow(const Pose2& robot) {

@@ -42,6 +42,7 @@ class TrackedPath {
     int direction;
   };
   [[nodiscard]] const Segment& segment() const { return segments_[segment_]; }
+  void join(const Pose2& robot);
 
   std::vector<Pose2> poses_;
   std::vector<double> distances_;  ///< driven from the first pose, m

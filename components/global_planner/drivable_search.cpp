@@ -15,7 +15,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCell = 0.1;  ///< m: states of one cell, heading and direction count as one
 constexpr int kHeadings = 72;
-constexpr double kCheckSpacing = 0.1;  ///< m between collision checks along an arc
 constexpr std::array<double, 6> kApproachParts{1.0, 0.8, 0.6, 0.4, 0.2, 0.0};
 
 Pose2 advance(const Pose2& from, const Arc& arc) {
@@ -33,25 +32,7 @@ void DrivableConfig::describe(config::Fields& fields) {
                 {.help = "planned turning radius over the robot's smallest", .min = 1, .max = 3});
   fields.number("step", step,
                 {.unit = "m", .help = "driven from state to state", .min = 0.15, .max = 1});
-  fields.number("reverse_weight", reverse_weight,
-                {.help = "cost of a metre driven backwards", .min = 1, .max = 20});
-  fields.number("cusp_cost", cusp_cost,
-                {.unit = "m", .help = "for each change of direction", .min = 0, .max = 20});
-  fields.number("turn_weight", turn_weight,
-                {.help = "extra cost of a metre at the smallest radius", .min = 0, .max = 10});
-  fields.number("steering_cost", steering_cost,
-                {.unit = "m",
-                 .help = "for steering from straight to the smallest radius",
-                 .min = 0,
-                 .max = 10});
-  fields.number("clearance", clearance,
-                {.unit = "m",
-                 .help = "free space beside the padded footprint wished for",
-                 .min = 0.01,
-                 .max = 5});
-  fields.number(
-      "clearance_weight", clearance_weight,
-      {.help = "extra cost of a metre driven without any clearance", .min = 0, .max = 50});
+  fields.section("arc_cost", arc_cost);
   fields.number(
       "approach_length", approach_length,
       {.unit = "m", .help = "straight line on which the goal is approached", .min = 0, .max = 5});
@@ -65,6 +46,9 @@ void DrivableConfig::describe(config::Fields& fields) {
                 {.help = "the search ends when nothing can be cheaper by more than this part",
                  .min = 0,
                  .max = 2});
+  fields.integer(
+      "extra_states", extra_states,
+      {.help = "expanded at most once a first path is known", .min = 0, .max = 10000000});
   fields.integer("max_states", max_states,
                  {.help = "the search gives up after this many", .min = 1000, .max = 10000000});
 }
@@ -72,7 +56,8 @@ void DrivableConfig::describe(config::Fields& fields) {
 DrivableSearch::DrivableSearch(const DrivableConfig& config, double min_turning_radius)
     : config_(config),
       curves_(min_turning_radius * config.radius_margin),
-      turning_(min_turning_radius * config.radius_margin) {
+      turning_(min_turning_radius * config.radius_margin),
+      arc_cost_(config.arc_cost, min_turning_radius * config.radius_margin) {
   for (const double part : kApproachParts) approaches_.push_back(part * config.approach_length);
   const auto states = static_cast<std::size_t>(config.max_states);
   nodes_.reserve(states);
@@ -88,6 +73,7 @@ Result<DrivablePath, DrivableFailure> DrivableSearch::plan(const World& world, c
   open(world, goal, {start, 0.0F, -1, 0.0F, 0, static_cast<std::int8_t>(direction), false});
   std::size_t expanded = 0;
   std::size_t next_shot = 0;
+  std::size_t last = std::numeric_limits<std::size_t>::max();
   while (!open_.empty()) {
     std::pop_heap(open_.begin(), open_.end(), std::greater<>{});
     const auto [estimate, index] = open_.back();
@@ -100,8 +86,10 @@ Result<DrivablePath, DrivableFailure> DrivableSearch::plan(const World& world, c
     if (expanded >= next_shot) {
       try_shot(world, goal, index);
       next_shot = expanded + 1 + static_cast<std::size_t>(2.0 * (estimate - node.cost));
+      const auto extra = static_cast<std::size_t>(config_.extra_states);
+      if (best_node_ >= 0) last = std::min(last, expanded + extra);
     }
-    ++expanded;
+    if (expanded++ >= last) break;
     if (nodes_.size() + 10 > static_cast<std::size_t>(config_.max_states)) {
       if (best_node_ >= 0) break;
       return fail(DrivableFailure::kTooManyStates);
@@ -175,65 +163,40 @@ void DrivableSearch::open(const World& world, const Pose2& goal, const Node& nod
 void DrivableSearch::expand(const World& world, const Pose2& goal, std::int32_t index) {
   const Node node = nodes_[static_cast<std::size_t>(index)];
   const double half_curvature = 0.5 / curves_.turning_radius();
+  const ArcCost::Start start{node.pose, CollisionChecker::place(node.pose)};
   for (const int direction : {1, -1}) {
     for (int steering = -2; steering <= 2; ++steering) {
       Arc arc{direction * config_.step, steering * half_curvature};
-      double cost = arc_cost(world, node.pose, arc);
-      if (cost == kInfinity) {  // in a corner there may be room for half a step
+      ArcCost::Driven driven = arc_cost_.drive(world.grid, world.poses, start, arc);
+      if (!driven.free()) {  // in a corner there may be room for half a step
         arc.length *= 0.5;
-        cost = arc_cost(world, node.pose, arc);
-        if (cost == kInfinity) continue;
+        driven = arc_cost_.drive(world.grid, world.poses, start, arc);
+        if (!driven.free()) continue;
       }
-      cost += change_cost(node.direction, node.steering * half_curvature, arc);
+      const double change = arc_cost_.change(node.direction, node.steering * half_curvature, arc);
       open(world, goal,
-           {advance(node.pose, arc), static_cast<float>(node.cost + cost), index,
+           {driven.end.pose, static_cast<float>(node.cost + driven.cost + change), index,
             static_cast<float>(arc.length), static_cast<std::int8_t>(steering),
             static_cast<std::int8_t>(direction), false});
     }
   }
 }
 
-double DrivableSearch::change_cost(int direction, double curvature, const Arc& next) const {
-  const double steering = std::abs(next.curvature - curvature) * curves_.turning_radius();
-  const bool cusp = direction != 0 && direction != direction_of(next);
-  return config_.steering_cost * steering + (cusp ? config_.cusp_cost : 0.0);
-}
-
-double DrivableSearch::arc_cost(const World& world, const Pose2& from, const Arc& arc) const {
-  const int parts =
-      std::max(1, static_cast<int>(std::ceil(std::abs(arc.length) / kCheckSpacing - 1e-6)));
-  const double weight = (arc.length < 0.0 ? config_.reverse_weight : 1.0) +
-                        config_.turn_weight * std::abs(arc.curvature) * curves_.turning_radius();
-  const double part_length = std::abs(arc.length) / parts;
-  double cost = 0.0;
-  for (int i = 1; i <= parts; ++i) {
-    const Pose2 pose = advance(from, {arc.length * i / parts, arc.curvature});
-    if (!world.poses.free(pose)) return kInfinity;
-    const Cell cell = world.grid.geometry().cell_of(pose.position());
-    const float factor = world.grid.factor(world.grid.padded_index(cell));
-    const double ground = std::isfinite(factor) ? factor : world.grid.largest_factor();
-    const double missing = 1.0 - world.poses.clearance(pose) / config_.clearance;
-    const double narrow = config_.clearance_weight * std::clamp(missing, 0.0, 1.0);
-    cost += part_length * (ground * weight + narrow);
-  }
-  return cost;
-}
-
-double DrivableSearch::shot_cost(const World& world, const Pose2& goal, const Node& from,
-                                 const Shot& shot, double limit) const {
+double DrivableSearch::shot_cost(const World& world, const Node& from, const Shot& shot,
+                                 double limit) const {
   double cost = shot.cost;
-  Pose2 pose = from.pose;
+  ArcCost::Start at{from.pose, CollisionChecker::place(from.pose)};
+  const auto add = [&](const Arc& arc) {
+    const ArcCost::Driven driven = arc_cost_.drive(world.grid, world.poses, at, arc);
+    cost += driven.cost - std::abs(arc.length);
+    at = driven.end;
+    return cost < limit;
+  };
   for (std::size_t i = 0; i < shot.word.count; ++i) {
-    const Arc& arc = shot.word.arcs[i];
-    cost += arc_cost(world, pose, arc) - std::abs(arc.length);
-    if (cost >= limit) return kInfinity;
-    pose = advance(pose, arc);
+    if (!add(shot.word.arcs[i])) return kInfinity;
   }
-  if (shot.straight > 0.0) {
-    const Pose2 last = goal * Pose2{-shot.straight, 0.0, 0.0};
-    cost += arc_cost(world, last, {shot.straight, 0.0}) - shot.straight;
-  }
-  return cost < limit ? cost : kInfinity;
+  if (shot.straight > 0.0 && !add({shot.straight, 0.0})) return kInfinity;
+  return cost;
 }
 
 void DrivableSearch::try_shot(const World& world, const Pose2& goal, std::int32_t index) {
@@ -251,12 +214,12 @@ void DrivableSearch::try_shot(const World& world, const Pose2& goal, std::int32_
       for (std::size_t k = 0; k < word.count; ++k) {
         const Arc& arc = word.arcs[k];
         if (std::abs(arc.length) < 1e-6) continue;
-        cost += std::abs(arc.length) + change_cost(direction, curvature, arc);
+        cost += std::abs(arc.length) + arc_cost_.change(direction, curvature, arc);
         direction = direction_of(arc);
         curvature = arc.curvature;
         run_in = direction > 0 && arc.curvature == 0.0 ? arc.length : 0.0;
       }
-      if (straight > 0.0) cost += change_cost(direction, curvature, {straight, 0.0});
+      if (straight > 0.0) cost += arc_cost_.change(direction, curvature, {straight, 0.0});
       const double missing = config_.approach_length - straight - run_in;
       cost += config_.short_approach_cost * std::max(0.0, missing);
       if (node.cost + cost < best_cost_) shots_.push_back({cost, {cost, word, straight}});
@@ -266,7 +229,7 @@ void DrivableSearch::try_shot(const World& world, const Pose2& goal, std::int32_
             [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [lower_bound, shot] : shots_) {
     if (node.cost + lower_bound >= best_cost_) break;
-    const double cost = shot_cost(world, goal, node, shot, best_cost_ - node.cost);
+    const double cost = shot_cost(world, node, shot, best_cost_ - node.cost);
     if (cost == kInfinity) continue;
     best_cost_ = node.cost + cost;
     best_shot_ = shot;

@@ -7,6 +7,7 @@
 #include "core/pose.hpp"
 #include "core/result.hpp"
 #include "core/search/dijkstra.hpp"
+#include "global_planner/arc_cost.hpp"
 #include "global_planner/pose_checker.hpp"
 #include "global_planner/reeds_shepp.hpp"
 #include "global_planner/turning_distance.hpp"
@@ -14,18 +15,14 @@
 namespace coop::global_planner {
 
 struct DrivableConfig {
-  double radius_margin = 1.08;       ///< planned turning radius over the robot's smallest
-  double step = 0.22;                ///< m driven from state to state
-  double reverse_weight = 1.4;       ///< cost of a metre driven backwards
-  double cusp_cost = 0.8;            ///< m for each change of direction
-  double turn_weight = 0.10;         ///< extra cost of a metre at the smallest radius
-  double steering_cost = 0.10;       ///< m for steering from straight to the smallest radius
-  double clearance = 0.25;           ///< m of free space beside the footprint wished for
-  double clearance_weight = 3.0;     ///< extra cost of a metre driven without any
+  double radius_margin = 1.08;  ///< planned turning radius over the robot's smallest
+  double step = 0.22;           ///< m driven from state to state
+  ArcCostConfig arc_cost;
   double approach_length = 0.8;      ///< m: straight line on which the goal is to be approached
   double short_approach_cost = 5.0;  ///< m for each metre missing of it
   double greed = 1.2;                ///< weight of the estimated rest of the way
   double suboptimality = 0.2;        ///< ends when nothing can be cheaper by more than this part
+  int extra_states = 2000;           ///< expanded at most once a first path is known
   int max_states = 150000;           ///< the search gives up after this many
 
   void describe(config::Fields& fields);
@@ -91,16 +88,14 @@ class DrivableSearch {
   void expand(const World& world, const Pose2& goal, std::int32_t index);
   void try_shot(const World& world, const Pose2& goal, std::int32_t index);
   [[nodiscard]] double heuristic(const World& world, const Pose2& goal, const Node& node);
-  /// Cost of an arc with its obstacles and weights; infinite where it collides.
-  [[nodiscard]] double arc_cost(const World& world, const Pose2& from, const Arc& arc) const;
-  [[nodiscard]] double change_cost(int direction, double curvature, const Arc& next) const;
-  [[nodiscard]] double shot_cost(const World& world, const Pose2& goal, const Node& from,
-                                 const Shot& shot, double limit) const;
+  [[nodiscard]] double shot_cost(const World& world, const Node& from, const Shot& shot,
+                                 double limit) const;
   [[nodiscard]] DrivablePath trace() const;
 
   DrivableConfig config_;
   ReedsShepp curves_;
   TurningDistance turning_;
+  ArcCost arc_cost_;
   std::vector<double> approaches_;
   std::vector<Node> nodes_;
   std::vector<std::uint64_t> keys_;                   ///< of the nodes

@@ -78,7 +78,9 @@ GlobalPlanner::GlobalPlanner(const GlobalPlannerConfig& config,
            planner_.reach(kUsualResolution)) {}
 
 void GlobalPlanner::set_goal(const Goal& goal, Time now) {
+  if (goal.id == finished_goal_) return;  // told again while the news of its end was under way
   const bool first = !goal_;
+  const bool renamed = goal_ && goal_->id != goal.id;
   goal_ = goal;
   status_.goal_id = goal.id;
   status_.goal_in_map = goal.pose_in_map;
@@ -86,7 +88,7 @@ void GlobalPlanner::set_goal(const Goal& goal, Time now) {
   if (first) {
     drop_plan();
     failing_since_.reset();
-  } else if (!plan_.poses.empty() && !goal_moved()) {
+  } else if (renamed && !plan_.poses.empty() && !goal_moved()) {
     plan_changed_ = true;  // the same poses under the new goal's name
   }
 }
@@ -110,6 +112,7 @@ void GlobalPlanner::drop_plan() {
 void GlobalPlanner::report(const DriverReport& report) {
   if (!goal_ || report.goal_id != goal_->id) return;
   if (report.arrived || report.failed) {
+    finished_goal_ = goal_->id;
     goal_.reset();
     status_.state = PlannerState::kIdle;
     status_.reason = PlannerReason::kNone;

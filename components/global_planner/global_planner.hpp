@@ -84,6 +84,7 @@ class GlobalPlanner {
   [[nodiscard]] PlanningMap& map() { return map_; }
   [[nodiscard]] const PlanningMap& map() const { return map_; }
 
+  /// The same goal told again changes nothing, also after its end.
   void set_goal(const Goal& goal, Time now);
   void cancel();
   void report(const DriverReport& report);
@@ -118,6 +119,7 @@ class GlobalPlanner {
   PlanningMap map_;
   PlannerStatus status_;
   std::optional<Goal> goal_;
+  std::string finished_goal_;  ///< id of the last one that the driver brought to its end
   Plan plan_;
   Pose2 planned_goal_;
   std::vector<double> distances_;  ///< along plan_, m

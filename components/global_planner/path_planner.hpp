@@ -11,8 +11,8 @@
 #include "core/pose.hpp"
 #include "core/result.hpp"
 #include "core/search/dijkstra.hpp"
-#include "global_planner/drivable_search.hpp"
 #include "core/search/grid_planner.hpp"
+#include "global_planner/drivable_search.hpp"
 #include "global_planner/pose_checker.hpp"
 
 namespace coop::global_planner {

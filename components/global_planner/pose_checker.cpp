@@ -1,6 +1,7 @@
 #include "global_planner/pose_checker.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/costmap/footprint.hpp"
 
@@ -51,12 +52,15 @@ Result<void, PoseFailure> PoseChecker::prepare(const DistanceField& field, const
   return {};
 }
 
-bool PoseChecker::free(const Pose2& pose) const {
-  if (!checkers_[kFull].collides(*field_, pose)) return true;
+bool PoseChecker::free(const CollisionChecker::Placement& at) const {
+  if (!checkers_[kFull].collides(*field_, at)) return true;
   std::size_t level = kFull;
-  if (distance(pose, start_) < config_.tight_distance) level = start_level_;
-  if (distance(pose, goal_) < config_.tight_distance) level = std::max(level, goal_level_);
-  return level != kFull && !checkers_[level].collides(*field_, pose);
+  const auto near = [&](const Pose2& pose) {
+    return std::hypot(at.x - pose.x, at.y - pose.y) < config_.tight_distance;
+  };
+  if (near(start_)) level = start_level_;
+  if (near(goal_)) level = std::max(level, goal_level_);
+  return level != kFull && !checkers_[level].collides(*field_, at);
 }
 
 }  // namespace coop::global_planner

@@ -37,10 +37,11 @@ class PoseChecker {
   /// Chooses the padding at start and goal. `field` must outlive the query.
   Result<void, PoseFailure> prepare(const DistanceField& field, const Pose2& start,
                                     const Pose2& goal);
-  [[nodiscard]] bool free(const Pose2& pose) const;
+  [[nodiscard]] bool free(const CollisionChecker::Placement& at) const;
+  [[nodiscard]] bool free(const Pose2& pose) const { return free(CollisionChecker::place(pose)); }
   /// Of the padded footprint, m; see CollisionChecker::clearance.
-  [[nodiscard]] double clearance(const Pose2& pose) const {
-    return checkers_.front().clearance(*field_, pose);
+  [[nodiscard]] double clearance(const CollisionChecker::Placement& at) const {
+    return checkers_.front().clearance(*field_, at);
   }
 
   /// Whether the pose can be a goal at all.

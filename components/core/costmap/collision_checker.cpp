@@ -61,13 +61,13 @@ void CollisionChecker::divide(const Footprint& footprint, const Eigen::Vector2d&
   boxes_[index].skip = static_cast<std::int32_t>(boxes_.size());
 }
 
-bool CollisionChecker::collides(const DistanceField& field, const Pose2& pose_in_field) const {
+bool CollisionChecker::collides(const DistanceField& field, const Placement& placement) const {
   const GridGeometry& grid = field.geometry();
   const double scale = 1.0 / grid.resolution;
-  const double c = std::cos(pose_in_field.yaw) * scale;
-  const double s = std::sin(pose_in_field.yaw) * scale;
-  const double x0 = (pose_in_field.x - grid.origin.x()) * scale;
-  const double y0 = (pose_in_field.y - grid.origin.y()) * scale;
+  const double c = placement.cosine * scale;
+  const double s = placement.sine * scale;
+  const double x0 = (placement.x - grid.origin.x()) * scale;
+  const double y0 = (placement.y - grid.origin.y()) * scale;
   const auto end = static_cast<std::int32_t>(boxes_.size());
   for (std::int32_t i = 0; i < end;) {
     const Box& box = boxes_[static_cast<std::size_t>(i)];
@@ -80,14 +80,14 @@ bool CollisionChecker::collides(const DistanceField& field, const Pose2& pose_in
   return false;
 }
 
-double CollisionChecker::clearance(const DistanceField& field, const Pose2& pose_in_field) const {
+double CollisionChecker::clearance(const DistanceField& field, const Placement& placement) const {
   const GridGeometry& grid = field.geometry();
-  const double c = std::cos(pose_in_field.yaw);
-  const double s = std::sin(pose_in_field.yaw);
+  const double c = placement.cosine;
+  const double s = placement.sine;
   std::int32_t nearest = field.cap() * field.cap();
   for (const double x : axis_) {
-    const Eigen::Vector2d point(pose_in_field.x + c * x - s * axis_y_,
-                                pose_in_field.y + s * x + c * axis_y_);
+    const Eigen::Vector2d point(placement.x + c * x - s * axis_y_,
+                                placement.y + s * x + c * axis_y_);
     nearest = std::min(nearest, field.squared_at(grid.cell_of(point)));
   }
   return std::sqrt(static_cast<double>(nearest)) * grid.resolution - axis_radius_;

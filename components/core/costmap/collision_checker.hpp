@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "core/costmap/distance_field.hpp"
@@ -14,6 +15,17 @@ namespace coop {
 /// The answer is that of sampling the polygon every half cell.
 class CollisionChecker {
  public:
+  /// A pose with the cosine and sine of its heading, for callers that know them.
+  struct Placement {
+    double x;
+    double y;
+    double cosine;
+    double sine;
+  };
+  [[nodiscard]] static Placement place(const Pose2& pose) {
+    return {pose.x, pose.y, std::cos(pose.yaw), std::sin(pose.yaw)};
+  }
+
   /// For distance fields of that resolution, whose cap must exceed reach().
   CollisionChecker(const Footprint& footprint, double resolution);
 
@@ -21,12 +33,18 @@ class CollisionChecker {
   [[nodiscard]] double reach() const { return reach_; }
 
   /// Cells beyond the border of the field count as obstacles. No allocation.
-  [[nodiscard]] bool collides(const DistanceField& field, const Pose2& pose_in_field) const;
+  [[nodiscard]] bool collides(const DistanceField& field, const Placement& placement) const;
+  [[nodiscard]] bool collides(const DistanceField& field, const Pose2& pose_in_field) const {
+    return collides(field, place(pose_in_field));
+  }
 
   /// Distance in metres between the footprint and the nearest obstacle, from discs along its middle
   /// axis: exact at the flanks, up to 0.42 half widths too large at the corners; negative where an
   /// obstacle lies inside; never beyond the field's cap. For costs, not for safety.
-  [[nodiscard]] double clearance(const DistanceField& field, const Pose2& pose_in_field) const;
+  [[nodiscard]] double clearance(const DistanceField& field, const Placement& placement) const;
+  [[nodiscard]] double clearance(const DistanceField& field, const Pose2& pose_in_field) const {
+    return clearance(field, place(pose_in_field));
+  }
 
  private:
   struct Box {

@@ -1,4 +1,4 @@
-#include "global_planner/dijkstra.hpp"
+#include "core/search/dijkstra.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include "core/random.hpp"
 #include "support/shared_data.hpp"
 
-namespace coop::global_planner {
+namespace coop {
 namespace {
 
 constexpr double kSqrt2 = std::numbers::sqrt2;
@@ -245,4 +245,4 @@ INSTANTIATE_TEST_SUITE_P(Maps, MovingAi,
                          });
 
 }  // namespace
-}  // namespace coop::global_planner
+}  // namespace coop

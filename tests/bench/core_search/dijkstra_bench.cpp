@@ -4,10 +4,10 @@
 
 #include "core/costmap/costmap.hpp"
 #include "core/map/map_file.hpp"
-#include "global_planner/dijkstra.hpp"
+#include "core/search/dijkstra.hpp"
 #include "support/shared_data.hpp"
 
-namespace coop::global_planner {
+namespace coop {
 namespace {
 
 /// A warehouse of 1006 x 1674 cells of 5 cm as a costmap.
@@ -106,4 +106,4 @@ BENCHMARK(BM_DistanceTransform)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace coop::global_planner
+}  // namespace coop
