@@ -45,7 +45,18 @@ bool LogBackend::readers_are_there() {
     return false;
   }
   if (heard_since_ == Time{}) heard_since_ = node_.now();
-  return node_.now() - heard_since_ >= settle_;
+  return node_.now() - heard_since_ >= settle_ / 2;
+}
+
+bool LogBackend::time_is_announced() {
+  if (announced_at_ == Time{}) {
+    // Readers may start anew when their clock jumps into the log's time; that must not cost them
+    // its first reading.
+    if (!clock_.publish(conversions::to_clock_msg(playback_.begin() - Playback::kStep)))
+      return false;
+    announced_at_ = node_.now();
+  }
+  return node_.now() - announced_at_ >= settle_ / 2;
 }
 
 void LogBackend::play() {
@@ -53,7 +64,7 @@ void LogBackend::play() {
     finish();
     return;
   }
-  if (!playback_.started() && !readers_are_there()) return;
+  if (!playback_.started() && !(readers_are_there() && time_is_announced())) return;
   if (!readers_keep_up()) return;
   for (int i = 0; i < kStepsPerCall; ++i) {
     const auto step = playback_.next(node_.now());

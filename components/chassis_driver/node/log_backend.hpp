@@ -20,6 +20,7 @@ class LogBackend {
  private:
   void play();
   [[nodiscard]] bool readers_are_there();
+  [[nodiscard]] bool time_is_announced();
   [[nodiscard]] bool readers_keep_up();
   [[nodiscard]] bool publish_until(Time step);
   void finish();
@@ -34,8 +35,9 @@ class LogBackend {
   bool wait_for_readers_;
   Duration settle_;
   Duration patience_;
-  Time heard_since_{};  ///< wall time
-  Time ended_at_{};     ///< wall time
+  Time heard_since_{};   ///< wall time
+  Time announced_at_{};  ///< wall time
+  Time ended_at_{};      ///< wall time
 };
 
 }  // namespace coop::chassis_driver

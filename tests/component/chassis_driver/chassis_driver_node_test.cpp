@@ -126,7 +126,8 @@ TEST_F(LogTest, WaitsForReadersThenPlaysAtItsRateAndFinishes) {
   const auto odoms = fixture_.collect<nav_msgs::msg::Odometry>("odom", Qos::kSensorStream);
   fixture_.advance(1100ms, 5ms);  // 0.1 s to settle, 1 s of playback
   ASSERT_FALSE(clocks->empty());
-  EXPECT_EQ(*conversions::from_msg(clocks->front()), stamp(0.0));
+  EXPECT_EQ(*conversions::from_msg(clocks->at(0)), stamp(-0.1));  // announces the log's time
+  EXPECT_EQ(*conversions::from_msg(clocks->at(1)), stamp(0.0));
   EXPECT_NEAR(to_seconds(*conversions::from_msg(clocks->back()) - stamp(0.0)), 2.0, 0.03);
   fixture_.advance(1200ms, 5ms);
   EXPECT_EQ(*conversions::from_msg(clocks->back()), stamp(4.0));
