@@ -10,7 +10,7 @@ struct AntColonyConfig {
   double alpha = 1.0;    ///< importance of pheromone
   double beta = 2.0;     ///< importance of the heuristic, 1 / distance
   double rho = 0.1;      ///< evaporation an iteration
-  double q = 1.0;        ///< pheromone constant, m
+  double q = 0.1;        ///< pheromone constant, m
   int iterations = 200;  ///< t_max
   double initial = 1.0;  ///< pheromone of every edge at the start
   bool closed = false;   ///< the tour ends where it began

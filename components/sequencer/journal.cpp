@@ -65,6 +65,7 @@ json to_json(const MissionState& state) {
           {"detail", state.detail},
           {"waypoints", waypoints},
           {"next_waypoint", state.next_waypoint},
+          {"searches", state.searches},
           {"missed", state.missed_waypoints},
           {"eggs", eggs},
           {"order", state.order},
@@ -87,6 +88,7 @@ MissionState state_from(const json& value) {
     state.waypoints.push_back({waypoint.at("name"), pose_from(waypoint.at("pose"))});
   }
   state.next_waypoint = value.at("next_waypoint");
+  state.searches = value.at("searches");
   state.missed_waypoints = value.at("missed").get<std::vector<std::string>>();
   for (const json& egg : value.at("eggs")) state.eggs.push_back(egg_from(egg));
   state.order = value.at("order").get<std::vector<std::string>>();

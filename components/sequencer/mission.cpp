@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 namespace coop::sequencer {
@@ -10,6 +11,8 @@ namespace coop::sequencer {
 void MissionConfig::describe(config::Fields& fields) {
   fields.integer("expected_eggs", expected_eggs,
                  {.help = "the search ends when as many are known; 0: all waypoints", .min = 0});
+  fields.integer("max_searches", max_searches,
+                 {.help = "tours while fewer eggs than expected are known", .min = 1, .max = 100});
   fields.integer("max_attempts", max_attempts,
                  {.help = "approaches to one egg", .min = 1, .max = 100});
   fields.number("goal_timeout", goal_timeout,
@@ -186,11 +189,29 @@ void Mission::step_waypoints(const MissionSnapshot& snapshot, Time now) {
 
 void Mission::end_search_or_mission() {
   drive_.reset();
+  state_.searches += 1;
   if (state_.kind == MissionKind::kCollect) {
     enter(MissionPhase::kOrdering, fmt::format("{} eggs known", state_.eggs.size()));
     return;
   }
   finish();
+}
+
+bool Mission::wants_another_search() const {
+  return static_cast<int>(state_.eggs.size()) < config_.expected_eggs &&
+         state_.searches < config_.max_searches && !state_.waypoints.empty();
+}
+
+/// The other way round, so that the camera sees what it had its back to.
+void Mission::search_again() {
+  std::ranges::reverse(state_.waypoints);
+  for (Waypoint& waypoint : state_.waypoints) {
+    waypoint.pose_in_map.yaw = normalize_angle(waypoint.pose_in_map.yaw + std::numbers::pi);
+  }
+  state_.next_waypoint = 0;
+  changed_ = true;
+  enter(MissionPhase::kSearching, fmt::format("{} of {} eggs known, search {}", state_.eggs.size(),
+                                              config_.expected_eggs, state_.searches + 1));
 }
 
 void Mission::finish() {
@@ -214,7 +235,9 @@ void Mission::step_ordering(const MissionSnapshot& snapshot, const MapQueries& q
   }
   state_.current_egg.clear();
   if (open.empty()) {
-    if (config_.return_home) {
+    if (wants_another_search()) {
+      search_again();
+    } else if (config_.return_home) {
       enter(MissionPhase::kReturning, "home");
     } else {
       finish();

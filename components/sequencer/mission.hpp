@@ -13,12 +13,13 @@
 namespace coop::sequencer {
 
 struct MissionConfig {
-  int expected_eggs = 0;           ///< the search ends when as many are known; 0: all waypoints
-  int max_attempts = 4;            ///< approaches to one egg before it is reported as failed
-  double goal_timeout = 150.0;     ///< s for one drive
-  double goal_repeat = 2.0;        ///< s, the goal is told again, for planners that restarted
-  double pick_repeat = 3.0;        ///< s, the pick is told again under its id
-  double pick_timeout = 60.0;      ///< s for one pick
+  int expected_eggs = 0;        ///< the search ends when as many are known; 0: all waypoints
+  int max_searches = 2;         ///< tours of the waypoints while fewer eggs than expected are known
+  int max_attempts = 4;         ///< approaches to one egg before it is reported as failed
+  double goal_timeout = 150.0;  ///< s for one drive
+  double goal_repeat = 2.0;     ///< s, the goal is told again, for planners that restarted
+  double pick_repeat = 3.0;     ///< s, the pick is told again under its id
+  double pick_timeout = 60.0;   ///< s for one pick
   double refresh_distance = 0.04;  ///< m, an approach pose that moved this much is told anew
   double refresh_until = 0.5;      ///< m from the goal; nearer it stays as it is
   double waypoint_radius = 0.6;    ///< m, a waypoint this near is reached: the robot drives on
@@ -129,6 +130,8 @@ class Mission {
   /// The navigators' answer to the present goal, a time-out included.
   [[nodiscard]] NavigationReport drive_result(const MissionSnapshot& snapshot, Time now) const;
   void end_search_or_mission();
+  [[nodiscard]] bool wants_another_search() const;
+  void search_again();
   void finish();
 
   MissionConfig config_;

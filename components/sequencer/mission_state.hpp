@@ -48,6 +48,7 @@ struct MissionState {
   std::string detail;
   std::vector<Waypoint> waypoints;
   std::size_t next_waypoint = 0;
+  int searches = 0;                           ///< tours of the waypoints ended
   std::vector<std::string> missed_waypoints;  ///< names, with the reason
   std::vector<EggTask> eggs;
   std::vector<std::string> order;  ///< ids of eggs, as ordered last

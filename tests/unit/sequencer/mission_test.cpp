@@ -110,6 +110,21 @@ TEST_F(MissionTest, AWaypointInPassingNeedsNoArrival) {
   EXPECT_TRUE(mission_.state().is_active()) << "the last one is driven to its end";
 }
 
+TEST_F(MissionTest, TooFewEggsAreSearchedForOnceMoreTheOtherWayRound) {
+  mission_.start(MissionKind::kCollect, "m", {{"gate", {1, 0, 0}}, {"pond", {5, 0, 0}}});
+  for (int i = 0; i < 2; ++i) {
+    step();
+    arrive();
+    step();
+  }
+  for (int i = 0; i < 5; ++i) step();
+  EXPECT_EQ(mission_.state().searches, 1);
+  EXPECT_EQ(mission_.state().waypoints.front().name, "pond");
+  arrive();
+  step_until_phase(MissionPhase::kDone, 20);
+  EXPECT_EQ(mission_.state().searches, 2);
+}
+
 TEST_F(MissionTest, TwoEggsAreSearchedOrderedDrivenToAndPicked) {
   mission_.start(MissionKind::kCollect, "m", {{"gate", {1, 0, 0}}});
   step();
