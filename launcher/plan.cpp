@@ -73,14 +73,18 @@ class StartOrder {
 Variables make_variables(const Launch& launch, const Places& places,
                          const std::filesystem::path& run_folder) {
   Variables variables;
-  variables.set("share", places.share.string());
-  variables.set("run_dir", run_folder.string());
-  variables.set("robot", launch.robot);
-  variables.set("domain", std::to_string(launch.domain));
-  variables.set("seed", std::to_string(launch.seed));
+  const auto set_text = [&variables](const std::string& name, const std::string& text) {
+    variables.set(name, text, text);
+  };
+  set_text("share", places.share.string());
+  set_text("run_dir", run_folder.string());
+  set_text("robot", launch.robot);
+  set_text("domain", std::to_string(launch.domain));
+  set_text("seed", std::to_string(launch.seed));
   for (const auto& variable : launch.variables) {
     const std::string where = variable.where + ": variables." + variable.key;
-    variables.set(variable.key, variables.replace(variable.text, where));
+    variables.set(variable.key, variables.replace(variable.text, where),
+                  variables.replace_in_yaml(variable, where));
   }
   return variables;
 }
@@ -124,7 +128,7 @@ class Planner {
     for (const auto& parameter : declared.parameters) {
       const std::string where = parameter.where + ": " + component.name + ": " + parameter.key;
       config::Assignment replaced = parameter;
-      replaced.value = variables_.replace(parameter.value, where);
+      replaced.value = variables_.replace_in_yaml(parameter, where);
       planned.parameters.push_back(std::move(replaced));
     }
     planned.arguments = arguments_of(component, planned);

@@ -37,15 +37,27 @@ struct Plan {
   std::vector<PlannedComponent> components;
 };
 
-/// Replaces ${name} in `text`. Known: share, run_dir, robot, domain, seed and the launch file's
-/// variables. Throws config::Error starting with `where` for one that is not known.
+/// Replaces ${name}. Known: share, run_dir, robot, domain, seed and the launch file's variables.
+/// Throws config::Error starting with `where` for one that is not known.
 class Variables {
  public:
-  void set(std::string name, std::string value);
+  /// `in_yaml`: the same value as YAML, so that 1 stays a number and "1" a text.
+  void set(std::string name, std::string text, std::string in_yaml);
+  /// In a text.
   [[nodiscard]] std::string replace(std::string_view text, const std::string& where) const;
+  /// In a value in YAML. One that is nothing but a variable takes the variable's kind: with `rate:
+  /// 1`, "${rate}" is a number.
+  [[nodiscard]] std::string replace_in_yaml(const config::Assignment& value,
+                                            const std::string& where) const;
 
  private:
-  std::vector<std::pair<std::string, std::string>> values_;
+  struct Variable {
+    std::string name;
+    std::string text;
+    std::string in_yaml;
+  };
+  [[nodiscard]] const Variable& find(std::string_view name, const std::string& where) const;
+  std::vector<Variable> variables_;
 };
 
 /// Checks what can be checked without starting anything: executables and files exist, `after` names

@@ -130,6 +130,15 @@ TEST_F(PlanTest, VariablesAreReplacedEverywhereAndMayUseEarlierOnes) {
   EXPECT_THAT(plan_.components[0].environment, ElementsAre("MAP=duck"));
 }
 
+TEST_F(PlanTest, AParameterThatIsOneVariableIsOfItsKind) {
+  const Plan plan_ = plan(
+      "variables: {rate: 1, name: \"1\"}\ncomponents:\n  a: {parameters: {n: \"${rate}\", t: "
+      "\"${name}\", both: \"${rate}${name}\"}}\n");
+  EXPECT_EQ(plan_.components[0].parameters[0].value, "1");
+  EXPECT_EQ(plan_.components[0].parameters[1].value, "\"1\"");
+  EXPECT_EQ(plan_.components[0].parameters[2].value, "\"11\"");
+}
+
 TEST_F(PlanTest, AnUnknownVariableSaysWhereAndNamesTheNearest) {
   EXPECT_EQ(
       error_of("variables: {map: x}\ncomponents:\n  a:\n    parameters:\n      m: \"${mop}\"\n"),
