@@ -1,5 +1,7 @@
 #include "sequencer/node/sequencer_node.hpp"
 
+#include <charconv>
+
 #include "conversions/detections.hpp"
 #include "conversions/geometry.hpp"
 #include "conversions/navigation.hpp"
@@ -21,6 +23,8 @@ namespace {
 constexpr auto kStepPeriod = std::chrono::milliseconds(100);
 constexpr auto kStatusPeriod = std::chrono::seconds(1);
 constexpr auto kPatience = std::chrono::seconds(2);
+/// Answers to so many goals are kept; only the latest goal's counts.
+constexpr std::size_t kGoalsKept = 20;
 /// A pose older than this is no pose.
 constexpr auto kPoseAge = std::chrono::seconds(1);
 
@@ -128,8 +132,13 @@ void SequencerNode::receive_eggs(const vision_msgs::msg::Detection3DArray& messa
 }
 
 void SequencerNode::receive_navigation(const NavigationStatus& message) {
-  if (const auto report = to_report(message)) navigation_[report->goal_id] = *report;
-  while (navigation_.size() > 20) navigation_.erase(navigation_.begin());  // ids rise with time
+  const auto report = to_report(message);
+  if (!report) return;
+  std::int64_t stamp = 0;
+  const char* const end = report->goal_id.data() + report->goal_id.size();
+  if (std::from_chars(report->goal_id.data(), end, stamp).ptr != end) return;  // no goal of ours
+  navigation_[stamp] = *report;
+  while (navigation_.size() > kGoalsKept) navigation_.erase(navigation_.begin());
 }
 
 void SequencerNode::look_at_sightings() {

@@ -40,7 +40,7 @@ class SequencerNode {
   Journal journal_;
   const TransformBuffer& transforms_;
   runtime::StampedQueue<std::vector<Detection>> waiting_;
-  std::map<std::string, NavigationReport> navigation_;  ///< by goal id
+  std::map<std::int64_t, NavigationReport> navigation_;  ///< by goal id, a stamp in nanoseconds
   std::optional<PickReport> pick_;
   std::optional<MissionActions> unwritten_;  ///< held back until the journal takes the state
   Time last_status_{};

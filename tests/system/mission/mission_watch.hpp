@@ -1,0 +1,33 @@
+#pragma once
+#include <memory>
+
+#include "coop_msgs/msg/GroundTruth.h"
+#include "coop_msgs/msg/MissionStatus.h"
+#include "runtime/dds_transport.hpp"
+#include "runtime/node.hpp"
+
+namespace coop::test {
+
+/// Listens to a running system over DDS, as any other program would.
+class MissionWatch {
+ public:
+  explicit MissionWatch(int domain);
+
+  /// Takes in what has arrived.
+  void look();
+  [[nodiscard]] const coop_msgs::msg::MissionStatus& mission() const { return mission_; }
+  [[nodiscard]] const coop_msgs::msg::GroundTruth& truth() const { return truth_; }
+  [[nodiscard]] int eggs_picked() const;     ///< as the mission tells
+  [[nodiscard]] int eggs_collected() const;  ///< as the simulated world has it
+  [[nodiscard]] bool is_done() const;
+
+ private:
+  runtime::DdsTransport transport_;
+  runtime::SystemClock clock_;
+  runtime::Executor executor_;
+  runtime::Node node_;
+  coop_msgs::msg::MissionStatus mission_;
+  coop_msgs::msg::GroundTruth truth_;
+};
+
+}  // namespace coop::test
