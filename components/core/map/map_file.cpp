@@ -26,7 +26,7 @@ std::int8_t scaled(double darkness, const MapMetadata& metadata) {
   if (darkness < metadata.free_thresh) return kFree;
   const double span = metadata.occupied_thresh - metadata.free_thresh;
   const double ratio = span > 0.0 ? (darkness - metadata.free_thresh) / span : 0.0;
-  return static_cast<std::int8_t>(1.0 + 98.0 * ratio);
+  return static_cast<std::int8_t>(std::lround(1.0 + 98.0 * ratio));
 }
 
 std::int8_t occupancy(std::uint16_t pixel, int max_value, const MapMetadata& metadata) {
