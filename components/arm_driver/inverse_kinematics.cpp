@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -59,7 +60,10 @@ InverseKinematics::InverseKinematics(const KinematicChain& chain, const IkConfig
 
 bool InverseKinematics::descend(const TipTarget& target, bool limited,
                                 JointVector& positions) const {
+  constexpr int kPatience = 12;  // iterations without progress after which the start is given up
   JacobianMatrix jacobian;
+  double best = std::numeric_limits<double>::infinity();
+  int best_iteration = 0;
   for (int iteration = 0; iteration < config_.max_iterations; ++iteration) {
     const Pose3 tip = chain_.tip_in_reference(positions, jacobian);
     const Vector3d axis = tip.linear().col(2);
@@ -70,6 +74,12 @@ bool InverseKinematics::descend(const TipTarget& target, bool limited,
     }
     Vector6d error;
     error << offset, config_.direction_weight * turn;
+    if (error.norm() < 0.98 * best) {
+      best = error.norm();
+      best_iteration = iteration;
+    } else if (iteration - best_iteration > kPatience) {
+      return false;
+    }
     // The turn about the tip's own axis is free: it does not count.
     for (int i = 0; i < chain_.size(); ++i) {
       Vector3d spin = jacobian.col(i).tail<3>();

@@ -17,8 +17,7 @@ class BenchArm {
   static constexpr double kCapture = 0.025;  // m around the egg at which it is taken up
 
   explicit BenchArm(const PickSequenceConfig& config = {})
-      : motion_(collector(), {}),
-        config_(config),
+      : config_(config),
         arm_(motion_.chain(), motion_.home()),
         sequence_(std::make_unique<PickSequence>(config_, motion_)) {}
 
@@ -100,7 +99,12 @@ class BenchArm {
     }
   }
 
-  ArmMotion motion_;
+  static const ArmMotion& shared_motion() {
+    static const ArmMotion motion(collector(), {});
+    return motion;
+  }
+
+  const ArmMotion& motion_ = shared_motion();
   PickSequenceConfig config_;
   SimulatedArm arm_;
   PickRecord disk_;
