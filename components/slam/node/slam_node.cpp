@@ -162,8 +162,9 @@ void SlamNode::publish_map() {
 
 void SlamNode::report_health() {
   const Time now = node_.now();
+  // Half of the patience: at the whole of it the scan is gone.
   const bool waits =
-      !waiting_.empty() && now - waiting_.front().stamp > seconds(config_.odometry_patience);
+      !waiting_.empty() && now - waiting_.front().stamp > seconds(0.5 * config_.odometry_patience);
   if (waits && !odometry_.at(waiting_.front().stamp)) {
     node_.set_degraded("no odometry for the scans");
   } else if (waits && !node_.options().reliable_streams) {
