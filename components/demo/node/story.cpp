@@ -50,7 +50,9 @@ int run_story(const StoryOptions& options) {
   Part survey;
   survey.title = "survey";
   survey.launch_file = "config/launch/survey.yaml";
-  survey.settings = options.settings;
+  survey.settings = {fmt::format("rate={}", options.rate)};
+  survey.settings.insert(survey.settings.end(), options.settings.begin(), options.settings.end());
+  const std::vector<std::string> common = survey.settings;
   survey.settings.push_back("slam.save_path=" + (folder / "map").string());
   survey.folder = folder / "survey";
   survey.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
@@ -62,7 +64,7 @@ int run_story(const StoryOptions& options) {
   Part collection = survey;
   collection.title = "collection";
   collection.launch_file = "config/launch/collect.yaml";
-  collection.settings = options.settings;
+  collection.settings = common;
   collection.settings.push_back("amcl.map_file=" + (folder / "map.yaml").string());
   collection.folder = folder / "collection";
   const PartResult collected = run_part(collection);

@@ -10,6 +10,7 @@ struct StoryOptions {
   std::filesystem::path folder;
   std::uint64_t seed = 1;
   int domain = 0;
+  double rate = 2.0;  ///< of simulated time against real time
   std::vector<std::string> settings;
 };
 
