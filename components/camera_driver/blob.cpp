@@ -44,6 +44,35 @@ void measure(const cv::Mat& labels, Blob& blob) {
   blob.angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
 }
 
+bool reaches_border(const cv::Rect& box, const cv::Size& picture) {
+  return box.x == 0 || box.y == 0 || box.br().x == picture.width || box.br().y == picture.height;
+}
+
+/// Gives each pixel of the blob to the part `part_of(column, row)` says.
+template <class PartOf>
+std::vector<Blob> divide(const Blob& blob, cv::Mat& labels, int next_label, std::size_t count,
+                         PartOf part_of) {
+  std::vector<Blob> parts(count);
+  for (std::size_t i = 0; i < count; ++i) parts[i].label = next_label + static_cast<int>(i);
+  for (int row = blob.box.y; row < blob.box.br().y; ++row) {
+    for (int column = blob.box.x; column < blob.box.br().x; ++column) {
+      int& label = labels.at<int>(row, column);
+      if (label != blob.label) continue;
+      Blob& part = parts[static_cast<std::size_t>(part_of(column, row))];
+      label = part.label;
+      const cv::Rect pixel(column, row, 1, 1);
+      part.box = part.area == 0 ? pixel : part.box | pixel;
+      ++part.area;
+    }
+  }
+  std::erase_if(parts, [](const Blob& part) { return part.area == 0; });
+  for (Blob& part : parts) {
+    part.at_border = reaches_border(part.box, labels.size());
+    measure(labels, part);
+  }
+  return parts;
+}
+
 }  // namespace
 
 double Blob::fill() const {
@@ -64,12 +93,39 @@ std::vector<Blob> find_blobs(const cv::Mat& mask, int min_area, int max_area, cv
     blob.area = area;
     blob.box = {row[cv::CC_STAT_LEFT], row[cv::CC_STAT_TOP], row[cv::CC_STAT_WIDTH],
                 row[cv::CC_STAT_HEIGHT]};
-    blob.at_border = blob.box.x == 0 || blob.box.y == 0 || blob.box.br().x == mask.cols ||
-                     blob.box.br().y == mask.rows;
+    blob.at_border = reaches_border(blob.box, mask.size());
     measure(labels, blob);
     blobs.push_back(blob);
   }
   return blobs;
+}
+
+std::vector<Blob> split_blob(const Blob& blob, double core, cv::Mat& labels, int next_label) {
+  // One pixel of nothing around, so that the box's border counts as outline.
+  cv::Mat inside(blob.box.height + 2, blob.box.width + 2, CV_8UC1, cv::Scalar(0));
+  cv::compare(labels(blob.box), blob.label, inside(cv::Rect({1, 1}, blob.box.size())), cv::CMP_EQ);
+  cv::Mat to_outline;
+  cv::distanceTransform(inside, to_outline, cv::DIST_L2, 5);
+  const cv::Mat elsewhere = to_outline <= core;
+  cv::Mat to_core;
+  cv::Mat nearest;  // label of the nearest core, from 1 up
+  cv::distanceTransform(elsewhere, to_core, nearest, cv::DIST_L2, 5, cv::DIST_LABEL_CCOMP);
+  double count = 0.0;
+  cv::minMaxLoc(nearest, nullptr, &count);
+  if (count < 2.0 || cv::countNonZero(elsewhere) == static_cast<int>(elsewhere.total())) return {};
+
+  return divide(blob, labels, next_label, static_cast<std::size_t>(count),
+                [&](int column, int row) {
+                  return nearest.at<int>(row - blob.box.y + 1, column - blob.box.x + 1) - 1;
+                });
+}
+
+std::vector<Blob> halve_blob(const Blob& blob, cv::Mat& labels, int next_label) {
+  const double c = std::cos(blob.angle);
+  const double s = std::sin(blob.angle);
+  return divide(blob, labels, next_label, 2, [&](int column, int row) {
+    return c * (column - blob.column) + s * (row - blob.row) < 0.0 ? 0 : 1;
+  });
 }
 
 }  // namespace coop::camera_driver

@@ -26,4 +26,13 @@ struct Blob {
 [[nodiscard]] std::vector<Blob> find_blobs(const cv::Mat& mask, int min_area, int max_area,
                                            cv::Mat& labels);
 
+/// Parts of a blob that hang together by necks only: those of its pixels that lie farther than
+/// `core` px from its outline fall into several cores, and every pixel goes to the nearest one. The
+/// parts get labels from `next_label` up, in `labels` too. Nothing where there is one core or none.
+[[nodiscard]] std::vector<Blob> split_blob(const Blob& blob, double core, cv::Mat& labels,
+                                           int next_label);
+
+/// The two halves of a blob on either side of its short axis, labelled likewise.
+[[nodiscard]] std::vector<Blob> halve_blob(const Blob& blob, cv::Mat& labels, int next_label);
+
 }  // namespace coop::camera_driver

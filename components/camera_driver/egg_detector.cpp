@@ -187,13 +187,44 @@ std::optional<Detection> EggDetector::judge(const Blob& blob, const cv::Mat& dep
   return egg;
 }
 
+std::vector<Blob> EggDetector::parts_of(const Blob& blob, const cv::Mat& depth) {
+  constexpr double kLarge = 1.3;  // of an egg's outline
+  constexpr double kTwo = 2.4;    // of the same: no more than two eggs
+  constexpr double kStretched = 1.3;
+  const auto surface = surface_depth(blob, depth);
+  if (!surface) return {};
+  const double per_metre = intrinsics_.fx / surface->mean;
+  const double outlines = blob.area / (kOutline * per_metre * per_metre);
+  if (outlines < kLarge) return {};
+  // One that stands before the other joins it by a wide neck: deeper cores, until there are two.
+  for (const double core : {0.5, 0.6, 0.7, 0.8, 0.9}) {  // of an egg's half width
+    const double inside = core * world::kEggHalfWidth * per_metre;
+    auto parts = split_blob(blob, inside, labels_, next_label_);
+    next_label_ += static_cast<int>(parts.size());
+    if (!parts.empty()) return parts;
+  }
+  if (outlines > kTwo || blob.half_long < kStretched * blob.half_short) return {};
+  auto halves = halve_blob(blob, labels_, next_label_);
+  next_label_ += static_cast<int>(halves.size());
+  return halves;
+}
+
 std::vector<Detection> EggDetector::detect(const Frame& frame) {
   segment(frame.colour);
-  // Nothing larger than an egg that touches the lens's near end is of interest.
+  // Of no interest: larger than some eggs right before the lens.
   const int max_area = mask_.rows * mask_.cols / 16;
+  const auto blobs = find_blobs(mask_, config_.min_area, max_area, labels_);
+  next_label_ = blobs.empty() ? 1 : blobs.back().label + 1;
   std::vector<Detection> eggs;
-  for (const Blob& blob : find_blobs(mask_, config_.min_area, max_area, labels_)) {
-    if (auto egg = judge(blob, frame.depth)) eggs.push_back(std::move(*egg));
+  for (const Blob& blob : blobs) {
+    if (auto egg = judge(blob, frame.depth)) {
+      eggs.push_back(std::move(*egg));
+      continue;
+    }
+    for (const Blob& part : parts_of(blob, frame.depth)) {
+      if (part.area < config_.min_area) continue;
+      if (auto egg = judge(part, frame.depth)) eggs.push_back(std::move(*egg));
+    }
   }
   return eggs;
 }

@@ -40,6 +40,9 @@ struct EggDetectorConfig {
 /// and its centre lies about half an egg above the floor around it, as depth tells: a flat patch of
 /// the same outline is none, and the robot may pitch a little.
 ///
+/// A region too large for one egg is cut where it is narrow: eggs that touch, an egg on something
+/// pale.
+///
 /// The centre lies behind the surface seen: a sphere's visible half has the mean depth of its
 /// centre less 2/3 of its radius. Covariance: pixel_stddev across; along the ray the depth's noise,
 /// of which neighbouring pixels share a part, and depth_bias. An egg cut by the picture's border is
@@ -60,6 +63,8 @@ class EggDetector {
   };
   void segment(const cv::Mat& colour);
   [[nodiscard]] std::optional<SurfaceDepth> surface_depth(const Blob& blob, const cv::Mat& depth);
+  /// Parts of a region that is larger than an egg at its depth, or none.
+  [[nodiscard]] std::vector<Blob> parts_of(const Blob& blob, const cv::Mat& depth);
   [[nodiscard]] std::optional<Detection> judge(const Blob& blob, const cv::Mat& depth);
   [[nodiscard]] double height_of(const Eigen::Vector3d& point) const;
   /// Height of the floor around a blob above the plane z = 0 of base_link, m.
@@ -73,6 +78,7 @@ class EggDetector {
   Pose3 camera_in_base_;
   cv::Mat mask_;
   cv::Mat labels_;
+  int next_label_ = 1;
   std::vector<std::uint16_t> depths_;  ///< of one blob, mm
   std::vector<double> heights_;        ///< of the floor around one blob, m
 };

@@ -69,5 +69,29 @@ TEST(FindBlobs, one_that_reaches_the_border_is_marked) {
   }
 }
 
+TEST(SplitBlob, two_squares_joined_by_a_bridge_are_parted_in_the_middle_of_it) {
+  cv::Mat labels;
+  const cv::Mat mask = rectangles({{4, 4, 9, 9}, {13, 8, 2, 1}, {15, 4, 9, 9}});
+  const auto blobs = find_blobs(mask, 1, 1000, labels);
+  ASSERT_EQ(blobs.size(), 1U);
+  const auto parts = split_blob(blobs[0], 2.5, labels, 7);
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_EQ(parts[0].area, 82);
+  EXPECT_EQ(parts[1].area, 82);
+  EXPECT_NEAR(parts[0].column, 8.0, 0.1);
+  EXPECT_NEAR(parts[1].column, 19.0, 0.1);
+  EXPECT_EQ(labels.at<int>(8, 8), 7);
+  EXPECT_EQ(labels.at<int>(8, 19), 8);
+}
+
+TEST(SplitBlob, one_square_has_one_core_and_a_thin_line_none) {
+  cv::Mat labels;
+  const auto square = find_blobs(rectangles({{4, 4, 9, 9}}), 1, 1000, labels);
+  EXPECT_TRUE(split_blob(square[0], 2.5, labels, 7).empty());
+  const auto line = find_blobs(rectangles({{4, 4, 20, 2}}), 1, 1000, labels);
+  EXPECT_TRUE(split_blob(line[0], 2.5, labels, 7).empty());
+  EXPECT_EQ(labels.at<int>(4, 5), line[0].label);
+}
+
 }  // namespace
 }  // namespace coop::camera_driver

@@ -106,6 +106,23 @@ TEST_F(EggDetectorTest, an_egg_cut_by_the_border_is_trusted_less) {
   FAIL() << "never saw a part of an egg";
 }
 
+TEST_F(EggDetectorTest, eggs_that_touch_are_two) {
+  int pairs = 0;
+  for (const double x : {1.1, 1.5, 2.0}) {
+    for (int turn = 0; turn < 6; ++turn) {
+      truth_.eggs.clear();
+      const double angle = turn * 0.52;
+      // Seen one before the other the nearer hides the farther; 62 mm is end to end, or some
+      // millimetres apart.
+      const Eigen::Vector2d half = 0.031 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      lay_egg(x + half.x(), half.y(), "egg_" + std::to_string(turn));
+      lay_egg(x - half.x(), -half.y(), "egg_" + std::to_string(turn + 10));
+      pairs += detect().size() == 2 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(pairs, 15);  // of 18
+}
+
 TEST_F(EggDetectorTest, an_egg_that_hangs_in_the_gripper_is_none_on_the_floor) {
   truth_.eggs.push_back({"held", {1.2, 0.0, 0.20}, world::EggState::kInGripper});
   EXPECT_TRUE(detect().empty());
