@@ -125,8 +125,8 @@ TEST_F(SimulatorNodeTest, AnEmergencyStopOfAnySourceHoldsTheRobot) {
   start();
   const auto truths =
       fixture_.collect<coop_msgs::msg::GroundTruth>("ground_truth", Qos::kSensorStream);
-  auto publisher = fixture_.tester().advertise<coop_msgs::msg::EmergencyStop>(
-      "emergency_stop", Qos::kStateLatched);
+  auto publisher = fixture_.tester().advertise<coop_msgs::msg::EmergencyStop>("emergency_stop",
+                                                                              Qos::kStateLatched);
   coop_msgs::msg::EmergencyStop stop;
   stop.source("test");
   stop.engaged(true);
