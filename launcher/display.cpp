@@ -41,7 +41,6 @@ class LineDisplay : public Display {
     std::fflush(out_);
   }
   void refresh(const SystemView&) override {}
-  [[nodiscard]] std::chrono::milliseconds period() const override { return {}; }
   void end() override {}
 
  private:
@@ -72,9 +71,6 @@ class TableDisplay : public Display {
     table_ = format_table(system, width_ - 1);
     for (std::string& line : table_) line = printable(line);
     draw();
-  }
-  [[nodiscard]] std::chrono::milliseconds period() const override {
-    return std::chrono::milliseconds(500);
   }
   void end() override { drawn_ = 0; }
 

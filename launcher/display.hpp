@@ -19,8 +19,6 @@ class Display {
   /// A component's own output.
   virtual void output(const std::string& component, std::string_view data) = 0;
   virtual void refresh(const SystemView& system) = 0;
-  /// How often refresh() is wanted; zero: never.
-  [[nodiscard]] virtual std::chrono::milliseconds period() const = 0;
   /// The system has ended: nothing is redrawn after this.
   virtual void end() = 0;
 };

@@ -11,7 +11,7 @@ namespace {
 
 /// A shorter interval than this gives the share of the one before: the kernel counts in ticks of 10
 /// ms.
-constexpr double kShortestInterval = 0.2;
+constexpr double kShortestInterval = 2.0;
 
 }  // namespace
 

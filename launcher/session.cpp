@@ -24,6 +24,9 @@ namespace {
 /// component_status is latched.
 constexpr std::chrono::milliseconds kListen{400};
 
+/// Of the table, and of the measurement of processor use.
+constexpr std::chrono::milliseconds kRefresh{500};
+
 Instant now() {
   return std::chrono::steady_clock::now();
 }
@@ -79,13 +82,14 @@ class Session {
       loop_.run_once(next_deadline());
       supervisor_.tick(now());
       check_milestones();
-      if (display_->period().count() > 0 && now() >= next_refresh_) {
-        display_->refresh(view());
-        next_refresh_ = now() + display_->period();
+      if (now() >= next_refresh_) {
+        display_->refresh(
+            view());  // also where nothing is drawn: processor use is measured between two views
+        next_refresh_ = now() + kRefresh;
       }
     }
     Outcome outcome = supervisor_.outcome();
-    if (display_->period().count() > 0) display_->refresh(view());
+    display_->refresh(view());
     display_->end();
     report("", "stopped: " + outcome.reason);
     return outcome;
@@ -93,11 +97,10 @@ class Session {
 
  private:
   [[nodiscard]] std::optional<Instant> next_deadline() const {
-    Instant next = supervisor_.next_deadline().value_or(Instant::max());
-    if (display_->period().count() > 0) next = std::min(next, next_refresh_);
+    // Also woken when nothing is due, so that a pause of our own is noticed as one.
+    Instant next = std::min(next_refresh_, supervisor_.next_deadline().value_or(Instant::max()));
     if (options_.timeout && !supervisor_.shutting_down()) next = std::min(next, time_limit());
-    // Woken now and then in any case, so that a pause of our own is noticed as one.
-    return std::min(next, now() + std::chrono::milliseconds(500));
+    return next;
   }
 
   [[nodiscard]] Instant time_limit() const {
@@ -105,12 +108,9 @@ class Session {
   }
 
   void check_milestones() {
-    if (!was_up_ && supervisor_.all_up()) {
-      was_up_ = true;
-      const std::size_t count = supervisor_.view().size();
-      report("", (supervisor_.all_ready() ? "all " : "started, but not all ready: ") +
-                     std::to_string(count) + " components " +
-                     (supervisor_.all_ready() ? "ready" : "up"));
+    if (!were_ready_ && supervisor_.all_ready()) {
+      were_ready_ = true;
+      report("", "all " + std::to_string(supervisor_.view().size()) + " components ready");
     }
     if (options_.until == "ready" && supervisor_.all_ready()) {
       supervisor_.shut_down({kExitOk, "all components were ready"}, now());
@@ -217,7 +217,7 @@ class Session {
   UsageMeter meter_;
   std::optional<MissionWatch> mission_;
   Instant next_refresh_ = begin_;
-  bool was_up_ = false;
+  bool were_ready_ = false;
 };
 
 /// Throws where a component of this name already lives on the domain, wherever it was started.

@@ -277,11 +277,6 @@ bool Supervisor::done() const {
          std::ranges::all_of(slots_, [](const Slot& slot) { return slot.pid == 0; });
 }
 
-bool Supervisor::all_up() const {
-  return std::ranges::all_of(
-      slots_, [](const Slot& slot) { return is_up(slot.state) || slot.state == State::kFinished; });
-}
-
 bool Supervisor::all_ready() const {
   return std::ranges::all_of(slots_, [](const Slot& slot) {
     return slot.state == State::kReady || slot.state == State::kFinished;

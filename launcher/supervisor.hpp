@@ -97,8 +97,6 @@ class Supervisor {
   /// Nothing runs and nothing will.
   [[nodiscard]] bool done() const;
   [[nodiscard]] bool all_ready() const;
-  /// All are up or have finished.
-  [[nodiscard]] bool all_up() const;
   [[nodiscard]] Outcome outcome() const;
   [[nodiscard]] std::vector<ComponentView> view() const;
 
