@@ -133,7 +133,7 @@ std::optional<Pose2> PathPlanner::find_alternative(const Costmap& costmap, const
                                                    const Pose2& goal) {
   constexpr double kStep = 0.1;
   constexpr int kHeadings = 24;
-  constexpr double kMetresPerRadian = 0.3;  // how far a turned goal counts as moved
+  constexpr double kMetresPerRadian = 1.0;  // how far a turned goal counts as moved
   const GridGeometry& geometry = costmap.geometry();
   grid_.update(costmap.costs());
   grid_.open_around(geometry.cell_of(start.position()), config_.open_radius);

@@ -19,8 +19,8 @@ struct PlanningMapConfig {
   int occupied_from = 65;  ///< percent: map cells from here on are obstacles
   double static_tolerance =
       0.10;  ///< m: what the laser sees this close to an obstacle of the map is that obstacle
-  InflationConfig inflation;
-  ObstacleLayerConfig obstacles;
+  InflationConfig inflation{};
+  ObstacleLayerConfig obstacles{};
 
   void describe(config::Fields& fields);
 };

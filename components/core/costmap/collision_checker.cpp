@@ -20,7 +20,8 @@ bool may_overlap(const Footprint& footprint, const Eigen::Vector2d& middle, doub
 
 }  // namespace
 
-CollisionChecker::CollisionChecker(const Footprint& footprint, double resolution) {
+CollisionChecker::CollisionChecker(const Footprint& footprint, double resolution)
+    : corners_(footprint.vertices()), radius_(footprint.circumscribed_radius()) {
   const Eigen::Vector2d size = footprint.upper() - footprint.lower();
   reach_ = 0.5 * size.norm() + 2.0 * resolution;
   divide(footprint, footprint.lower(), footprint.upper(), resolution);
@@ -68,6 +69,15 @@ bool CollisionChecker::collides(const DistanceField& field, const Placement& pla
   const double s = placement.sine * scale;
   const double x0 = (placement.x - grid.origin.x()) * scale;
   const double y0 = (placement.y - grid.origin.y()) * scale;
+  // The distance field ends at the border and does not count it as an obstacle.
+  const double rim = radius_ * scale;
+  if (x0 < rim || y0 < rim || x0 + rim > grid.width || y0 + rim > grid.height) {
+    for (const Eigen::Vector2d& corner : corners_) {
+      const double x = x0 + c * corner.x() - s * corner.y();
+      const double y = y0 + s * corner.x() + c * corner.y();
+      if (x < 0.0 || y < 0.0 || x > grid.width || y > grid.height) return true;
+    }
+  }
   const auto end = static_cast<std::int32_t>(boxes_.size());
   for (std::int32_t i = 0; i < end;) {
     const Box& box = boxes_[static_cast<std::size_t>(i)];

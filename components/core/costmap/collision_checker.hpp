@@ -60,6 +60,8 @@ class CollisionChecker {
   void divide(const Footprint& footprint, const Eigen::Vector2d& lower,
               const Eigen::Vector2d& upper, double resolution);
 
+  std::vector<Eigen::Vector2d> corners_;
+  double radius_;           ///< of the disc about base_link around them
   std::vector<Box> boxes_;  ///< a box stands before its parts
   std::vector<double> axis_;
   double axis_y_ = 0.0;

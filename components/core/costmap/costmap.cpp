@@ -5,6 +5,11 @@
 #include <cmath>
 
 namespace coop {
+namespace {
+
+constexpr double kRounding = 1e-9;  ///< m: six cells of 0.1 m are not farther than 0.6 m
+
+}  // namespace
 
 void InflationConfig::describe(config::Fields& fields) {
   fields.number("inflation_radius", inflation_radius,
@@ -40,7 +45,7 @@ void Costmap::update() {
     const int cap = distances_.cap();
     cost_of_squared_.assign(static_cast<std::size_t>(cap) * static_cast<std::size_t>(cap) + 1, 0);
     for (std::size_t squared = 0; squared < cost_of_squared_.size(); ++squared) {
-      const double distance = std::sqrt(static_cast<double>(squared)) * resolution;
+      const double distance = std::sqrt(static_cast<double>(squared)) * resolution - kRounding;
       Cost cost = kFreeCost;
       if (squared == 0) {
         cost = kLethalCost;
