@@ -6,8 +6,8 @@
 namespace coop::sequencer {
 namespace {
 
-/// Around a blocked place the inscribed zone is opened this far, m.
-constexpr double kOpenRadius = 1.0;
+/// From a place in a blocked cell a passable one is looked for up to here, m.
+constexpr double kSearchRadius = 1.5;
 
 Cost to_cost(std::int8_t percent) {
   if (percent < 0) return kUnknownCost;
@@ -34,22 +34,36 @@ void PathCosts::set_costmap(const OccupancyGrid& costmap) {
   flooded_from_.reset();
 }
 
-void PathCosts::flood(const Eigen::Vector2d& place) {
-  const Cell cell = grid_.geometry().cell_of(place);
+std::optional<Cell> PathCosts::passable_near(const Eigen::Vector2d& place) const {
+  const Cell middle = grid_.geometry().cell_of(place);
+  if (grid_.passable(middle)) return middle;
+  const int reach = static_cast<int>(kSearchRadius / grid_.geometry().resolution);
+  std::optional<Cell> best;
+  int best_squared = reach * reach + 1;
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const int squared = dx * dx + dy * dy;
+      const Cell cell{middle.x + dx, middle.y + dy};
+      if (squared < best_squared && grid_.passable(cell)) {
+        best_squared = squared;
+        best = cell;
+      }
+    }
+  }
+  return best;
+}
+
+void PathCosts::flood(Cell cell) {
   if (flooded_from_ == cell) return;
-  grid_.close();
-  flooded_from_.reset();
-  if (!grid_.geometry().contains(cell)) return;
-  if (!grid_.passable(cell)) grid_.open_around(cell, kOpenRadius);
-  if (!grid_.passable(cell)) return;
   search_.flood(grid_, cell, std::numeric_limits<double>::infinity());
   flooded_from_ = cell;
 }
 
 std::optional<double> PathCosts::pose_cost(const Pose2& robot_in_map, const Pose2& pose_in_map) {
   if (!checker_ || checker_->collides(obstacles_, pose_in_map)) return std::nullopt;
-  flood(robot_in_map.position());
-  if (!flooded_from_) return std::nullopt;
+  const auto start = passable_near(robot_in_map.position());
+  if (!start) return std::nullopt;
+  flood(*start);
   const double cost = search_.cost_to_goal(grid_.geometry().cell_of(pose_in_map.position()));
   if (!std::isfinite(cost)) return std::nullopt;
   return cost;
@@ -59,24 +73,14 @@ CostMatrix PathCosts::matrix(const Pose2& robot_in_map,
                              const std::vector<Eigen::Vector2d>& places_in_map) {
   const std::size_t nodes = places_in_map.size() + 1;
   CostMatrix costs(nodes, std::numeric_limits<double>::infinity());
-  const auto place = [&](std::size_t node) {
-    return node == 0 ? robot_in_map.position() : places_in_map[node - 1];
-  };
+  std::vector<std::optional<Cell>> cells{passable_near(robot_in_map.position())};
+  for (const Eigen::Vector2d& place : places_in_map) cells.push_back(passable_near(place));
   for (std::size_t to = 0; to < nodes; ++to) {
     costs.at(to, to) = 0.0;
-    flood(place(to));
-    if (!flooded_from_) continue;
+    if (!cells[to]) continue;
+    flood(*cells[to]);
     for (std::size_t from = 0; from < nodes; ++from) {
-      if (from != to) {
-        costs.at(from, to) = search_.cost_to_goal(grid_.geometry().cell_of(place(from)));
-      }
-    }
-  }
-  // A blocked place is opened only for its own flood: what leads out of it also leads into it.
-  for (std::size_t a = 0; a < nodes; ++a) {
-    for (std::size_t b = a + 1; b < nodes; ++b) {
-      const double either = std::min(costs.at(a, b), costs.at(b, a));
-      costs.at(a, b) = costs.at(b, a) = either;
+      if (from != to && cells[from]) costs.at(from, to) = search_.cost_to_goal(*cells[from]);
     }
   }
   return costs;

@@ -25,13 +25,15 @@ class PathCosts {
   [[nodiscard]] std::optional<double> pose_cost(const Pose2& robot_in_map,
                                                 const Pose2& pose_in_map);
 
-  /// From the robot (node 0) and between all places, by one flood a place (not one a pair). A place
-  /// in a blocked cell, as an egg in a corner is, is opened to its surroundings.
+  /// From the robot (node 0) and between all places, by one flood a place (not one a pair). The
+  /// cell of an egg is an obstacle itself: the nearest cell that can be driven over stands for it.
   [[nodiscard]] CostMatrix matrix(const Pose2& robot_in_map,
                                   const std::vector<Eigen::Vector2d>& places_in_map);
 
  private:
-  void flood(const Eigen::Vector2d& place);
+  void flood(Cell cell);
+  /// The place's cell, or the nearest passable one within the search radius.
+  [[nodiscard]] std::optional<Cell> passable_near(const Eigen::Vector2d& place) const;
 
   Footprint footprint_;
   TraversalGrid grid_;
