@@ -46,7 +46,7 @@ void Amcl::set_pose(const PoseEstimate& robot_in_map) {
   }
   estimate_ = {};
   recovery_.reset();
-  settling_ = 1;
+  settling_ = config_.standing_updates;
 }
 
 bool Amcl::scatter() {
@@ -58,7 +58,7 @@ bool Amcl::scatter() {
   }
   estimate_ = {};
   recovery_.reset();
-  settling_ = 1;
+  settling_ = config_.standing_updates;
   return true;
 }
 
@@ -145,7 +145,7 @@ void Amcl::settle(const Cluster& cluster) {
   const double share_limit = config_.localised_share * (was_localised ? 0.5 : 1.0);
   estimate_.localised = spread < spread_limit && cluster.share > share_limit;
   if (estimate_.localised != was_localised) {
-    settling_ = estimate_.localised ? config_.settle_updates : 1;
+    settling_ = estimate_.localised ? config_.settle_updates : config_.standing_updates;
     recovery_.reset();
   }
   estimate_.robot_in_map = cluster.pose;
@@ -235,6 +235,14 @@ void AmclConfig::describe(config::Fields& fields) {
   fields.integer("settle_updates", settle_updates,
                  {.help = "scans weighed in after the pose was found, even if the robot stands",
                   .min = 0,
+                  .max = 1000});
+  fields.number("searching_share", searching_share,
+                {.help = "of the particles drawn anew at each update while the pose is open",
+                 .min = 0,
+                 .max = 0.9});
+  fields.integer("standing_updates", standing_updates,
+                 {.help = "scans weighed in while the pose is open and the robot stands",
+                  .min = 1,
                   .max = 1000});
   fields.integer("scattered_particles", scattered_particles,
                  {.help = "spread over free space for global localisation", .min = 10, .max = 1e7});

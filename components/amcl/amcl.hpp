@@ -23,7 +23,7 @@ struct AmclConfig {
   double update_distance = 0.05;  ///< m driven until the next scan is weighed in
   double update_angle = 0.05;     ///< rad turned until the next scan is weighed in
   int beams = 60;                 ///< of a scan, at most
-  double max_range = 12.0;        ///< m, longer beams are not used
+  double max_range = 25.0;        ///< m, longer beams are not used
   int min_beams = 8;              ///< fewer usable beams say nothing
   double independent_beams =
       8.0;  ///< so many independent ones a scan's beams are worth while tracking
@@ -35,6 +35,7 @@ struct AmclConfig {
   double localised_share = 0.6;   ///< and known only if that cluster holds this share of the weight
   double search_noise = 0.03;     ///< m and rad an update, spreads particles while the pose is open
   int settle_updates = 8;  ///< scans weighed in after the pose was found, even if the robot stands
+  int standing_updates = 4;  ///< scans weighed in while the pose is open and the robot stands
   double searching_share =
       0.1;  ///< of the particles drawn anew at each update while the pose is open
   int scattered_particles = 100000;  ///< spread over free space for global localisation

@@ -6,9 +6,9 @@
 namespace coop::amcl {
 
 struct RecoveryConfig {
-  double slow_rate = 0.02;  ///< an update, decay of the long-term average fit
-  double fast_rate = 0.2;   ///< an update, decay of the short-term average fit
-  double tolerance = 1.4;   ///< times, by which scans may fit worse before particles are drawn anew
+  double slow_rate = 0.01;  ///< an update, decay of the long-term average fit
+  double fast_rate = 0.1;   ///< an update, decay of the short-term average fit
+  double tolerance = 1.3;   ///< times, by which scans may fit worse before particles are drawn anew
   double max_random_share = 0.3;  ///< of the particles, at most this part is drawn anew
 
   void describe(config::Fields& fields) {
