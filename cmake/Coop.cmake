@@ -78,6 +78,10 @@ function(coop_test name)
   endforeach()
   set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
     WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+  if(ARG_LABELS STREQUAL "system")
+    # A whole robot wants the machine for itself.
+    set_tests_properties(${name} PROPERTIES RUN_SERIAL TRUE)
+  endif()
 endfunction()
 
 # coop_bench(NAME SOURCES ... [LINK ...]): a Google Benchmark program NAME
