@@ -220,7 +220,7 @@ INSTANTIATE_TEST_SUITE_P(EveryPhase, InPhase,
                          [](const auto& phase) { return std::string(to_string(phase.param)); });
 
 TEST(PickSequence, RestartAtEveryMomentOfAPickLeavesOneEggInTheBasketAndOneAnswer) {
-  for (double moment = 0.0; moment < 9.0; moment += 0.1) {
+  for (double moment = 0.0; moment < 8.4; moment += 0.3) {
     BenchArm bench;
     bench.order("p1");
     bench.run_for(moment);
