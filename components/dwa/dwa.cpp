@@ -32,16 +32,19 @@ Dwa::Dwa(const DwaConfig& config, const std::vector<Eigen::Vector2d>& footprint,
                  std::max(chooser_.reach(), config.critic.max_obstacle_distance)) {}
 
 void Dwa::set_plan(const std::string& goal_id, std::vector<Pose2> poses_in_map) {
-  if (goal_id != goal_id_) {
+  const bool same_goal = goal_id == goal_id_;
+  // Given up: only another goal starts the robot again.
+  if (same_goal && mode_ == Mode::kFailed) return;
+  goal_id_ = goal_id;
+  // The same way under the name of a goal that hardly moved: nothing begins anew.
+  if (poses_in_map == plan_ && !plan_.empty() && mode_ != Mode::kFailed) return;
+  if (!same_goal) {
     back_ups_ = 0;
     misses_ = 0;
     progress_at_ = Time{};
     blocked_since_ = Time{};
-  } else if (mode_ == Mode::kFailed) {
-    return;  // given up: only another goal starts the robot again
   }
-  goal_id_ = goal_id;
-  new_plan_ = std::move(poses_in_map);
+  plan_ = std::move(poses_in_map);
   has_new_plan_ = true;
 }
 
@@ -58,7 +61,7 @@ DwaOutput Dwa::update(const DwaInputs& inputs, Time now) {
   track_.record(here.base_in_odom);
   if (has_new_plan_) {
     has_new_plan_ = false;
-    path_.set(std::move(new_plan_), here.base_in_map());
+    path_.set(plan_, here.base_in_map());
     if (mode_ != Mode::kBackUp || path_.empty()) {
       mode_ = path_.empty() ? Mode::kIdle : Mode::kFollow;
       mode_since_ = now;

@@ -109,7 +109,7 @@ class Dwa {
 
   Mode mode_ = Mode::kIdle;
   std::string goal_id_;
-  std::vector<Pose2> new_plan_;
+  std::vector<Pose2> plan_;  ///< the last one given, in map
   bool has_new_plan_ = false;
   TrackedPath path_;  ///< in map
   TrackedPath back_;  ///< in odom

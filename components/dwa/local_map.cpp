@@ -3,6 +3,12 @@
 #include <cmath>
 
 namespace coop::dwa {
+namespace {
+
+constexpr double kUnderRobot =
+    0.01;  ///< m: a spot whose middle is this near to the footprint is under it
+
+}  // namespace
 
 LocalMap::LocalMap(const LocalMapConfig& config, const Footprint& footprint, double reach)
     : config_(config),
@@ -47,6 +53,8 @@ void LocalMap::update(const Pose2& base_in_odom, const Pose2& odom_in_map, Time 
   const Pose2 map_in_odom = odom_in_map.inverse();
   for (const Spot& spot : spots_) {
     const Eigen::Vector2d center = map_in_odom * spot.center_in_map;
+    // It stands there, so nothing is, or it is too late.
+    if (footprint_.depth(base_in_odom.inverse() * center) > -kUnderRobot) continue;
     const int reach = static_cast<int>(std::ceil(spot.radius / grid.resolution));
     const Cell middle = grid.cell_of(center);
     for (int y = middle.y - reach; y <= middle.y + reach; ++y) {

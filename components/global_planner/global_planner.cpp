@@ -132,12 +132,12 @@ GlobalPlanner::Changes GlobalPlanner::update(const std::optional<Pose2>& robot_i
   if (robot_in_map) estimate_direction(*robot_in_map, now);
   if (goal_ && (now >= next_check_ || check_now_)) {
     next_check_ = now + seconds(config_.replan.check_period);
-    changes.costmap = map_.update(now);
+    changes.costmap = map_.update(now, robot_in_map);
     pursue(robot_in_map, now);
     check_now_ = false;
   } else if (!goal_ && now >= next_check_) {
     next_check_ = now + seconds(2.0 * config_.replan.check_period);
-    changes.costmap = map_.update(now);
+    changes.costmap = map_.update(now, robot_in_map);
   }
   changes.plan = plan_changed_;
   changes.why = why_changed_;

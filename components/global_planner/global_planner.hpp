@@ -19,8 +19,8 @@ struct ReplanConfig {
   double improve_period = 3.0;  ///< s between two searches for a better one
   double improvement =
       0.25;  ///< a plan must be cheaper by this part, and 0.5 m, to replace a good one
-  double goal_tolerance = 0.03;            ///< m: a goal moved by less keeps the plan
-  double goal_turn_tolerance = 0.035;      ///< rad
+  double goal_tolerance = 0.05;            ///< m: a goal moved by less keeps the plan
+  double goal_turn_tolerance = 0.05;       ///< rad
   double goal_tolerance_per_metre = 0.05;  ///< m (and rad) more for each metre still to drive
   double stray_distance = 0.35;            ///< m: a robot farther from its plan gets a new one
   double patience = 10.0;  ///< s without map, pose or path while driving before the goal fails

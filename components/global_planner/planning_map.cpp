@@ -4,6 +4,12 @@
 #include <cmath>
 
 namespace coop::global_planner {
+namespace {
+
+constexpr double kUnderRobot =
+    0.01;  ///< m: a spot whose middle is this near to the footprint is under it
+
+}  // namespace
 
 void PlanningMapConfig::describe(config::Fields& fields) {
   fields.integer(
@@ -61,7 +67,7 @@ void PlanningMap::mark_spot(const Spot& spot, std::span<std::uint8_t> cells) con
   }
 }
 
-bool PlanningMap::update(Time now) {
+bool PlanningMap::update(Time now, const std::optional<Pose2>& robot_in_map) {
   if (!has_map()) return false;
   obstacle_layer_.expire(now);
   costmap_.reset(map_.geometry);
@@ -76,7 +82,11 @@ bool PlanningMap::update(Time now) {
     // What the laser looked through is known to be free, whatever the map says.
     costmap_.unknown()[i] = map_.cells[i] < 0 && seen[i] != ObstacleLayer::State::kClear ? 1 : 0;
   }
-  for (const Spot& spot : spots_) mark_spot(spot, obstacles);
+  for (const Spot& spot : spots_) {
+    const bool under_robot =
+        robot_in_map && footprint_.depth(robot_in_map->inverse() * spot.center) > -kUnderRobot;
+    if (!under_robot) mark_spot(spot, obstacles);
+  }
   if (!map_changed_ &&
       std::equal(obstacles.begin(), obstacles.end(), marked_.begin(), marked_.end())) {
     return false;

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,8 +52,9 @@ class PlanningMap {
   };
   void set_spots(std::vector<Spot> spots);
 
-  /// Brings costs and distances up to date. Whether anything changed.
-  bool update(Time now);
+  /// Brings costs and distances up to date. Whether anything changed. Spots under the robot, where
+  /// it is known, are left out: it stands there, so nothing is, or it is too late.
+  bool update(Time now, const std::optional<Pose2>& robot_in_map = std::nullopt);
 
   [[nodiscard]] const Costmap& costmap() const { return costmap_; }
   [[nodiscard]] const OccupancyGrid& map() const { return map_; }

@@ -51,7 +51,7 @@ struct RunResult {
   double planner_cpu = 0.0;           ///< s
   std::string failure;
   std::vector<std::string> log;  ///< what planner and dwa said
-  std::vector<Moment> moments;  ///< every 0.1 s
+  std::vector<Moment> moments;   ///< every 0.1 s
   std::vector<std::vector<Pose2>> plans_made;
   std::vector<Pose2> goals_sent;
 };

@@ -90,7 +90,9 @@ EggTask TaskSource::draw(RandomStream& random) const {
   } while (overlaps(house_, start_room_, task.start));
   do {
     task.egg = {random.uniform(0.0, width), random.uniform(0.0, height)};
-  } while (distances_.distance_at(task.egg) < 0.08 || !goal_for(task.start, task.egg));
+  } while (distances_.distance_at(task.egg) < 0.08 ||
+           start_room_.contains(task.start.inverse() * task.egg) ||
+           !goal_for(task.start, task.egg));
   return task;
 }
 
