@@ -2,13 +2,14 @@
 
 #include <array>
 
+#include "camera_driver/node/files_backend.hpp"
 #include "camera_driver/node/simulation_backend.hpp"
 #include "core/robot/robot_model.hpp"
 
 namespace coop::camera_driver {
 namespace {
 
-constexpr std::array<std::string_view, 1> kBackends = {"sim"};
+constexpr std::array<std::string_view, 2> kBackends = {"sim", "files"};
 
 }  // namespace
 
@@ -18,25 +19,44 @@ void SimulationConfig::describe(config::Fields& fields) {
   fields.section("camera", camera);
 }
 
+void FilesConfig::describe(config::Fields& fields) {
+  fields.text("folder", folder, {.help = "of PNG and JPEG pictures"});
+  fields.number("period", period,
+                {.unit = "s", .help = "between pictures", .min = 0.01, .max = 3600});
+  fields.section("photograph", photograph);
+}
+
 void CameraDriverConfig::describe(config::Fields& fields) {
   fields.choice("backend", backend, kBackends, {.help = "where pictures come from"});
   fields.text("robot", robot, {.help = "URDF of the robot"});
   fields.section("sim", sim);
   fields.section("detector", detector);
+  fields.section("files", files);
 }
 
 void CameraDriverConfig::validate() const {
   sim.camera.validate();
   detector.validate();
+  files.photograph.validate();
 }
 
 void CameraDriverNode::check(const Config& config) {
+  if (config.backend == "files") (void)FilesBackend::list(config.files.folder);
   (void)robot::RobotModel::load(config.robot).mount(robot::kCameraOpticalFrame);
 }
 
 CameraDriverNode::CameraDriverNode(runtime::Node& node, const Config& config) {
-  backend_ =
-      std::make_shared<SimulationBackend>(node, config, robot::RobotModel::load(config.robot));
+  const auto robot = robot::RobotModel::load(config.robot);
+  node.publish_static_transform(robot::kBaseLink, robot::kCameraLink,
+                                robot.mount(robot::kCameraLink));
+  node.publish_static_transform(robot::kCameraLink, robot::kCameraOpticalFrame,
+                                robot.mount(robot::kCameraOpticalFrame, robot::kCameraLink));
+  if (config.backend == "files") {
+    backend_ = std::make_shared<FilesBackend>(node, config.files);
+  } else {
+    backend_ =
+        std::make_shared<SimulationBackend>(node, config, robot.mount(robot::kCameraOpticalFrame));
+  }
 }
 
 }  // namespace coop::camera_driver

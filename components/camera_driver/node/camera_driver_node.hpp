@@ -3,6 +3,7 @@
 #include <string>
 
 #include "camera_driver/egg_detector.hpp"
+#include "camera_driver/photograph.hpp"
 #include "camera_driver/simulated_camera.hpp"
 #include "runtime/node.hpp"
 
@@ -15,11 +16,20 @@ struct SimulationConfig {
   void describe(config::Fields& fields);
 };
 
+struct FilesConfig {
+  std::string folder;   ///< of PNG and JPEG pictures, shown in the order of their names
+  double period = 1.0;  ///< s between pictures
+  PhotographConfig photograph;
+
+  void describe(config::Fields& fields);
+};
+
 struct CameraDriverConfig {
-  std::string backend = "sim";  ///< "sim"
+  std::string backend = "sim";  ///< "sim" or "files"
   std::string robot = "config/robot/egg_collector.urdf";
   SimulationConfig sim;
-  EggDetectorConfig detector;
+  EggDetectorConfig detector;  ///< of pictures with depth (sim)
+  FilesConfig files;
 
   void describe(config::Fields& fields);
   void validate() const;

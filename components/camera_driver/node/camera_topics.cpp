@@ -41,7 +41,7 @@ void CameraTopics::publish(const Frame& frame, const Intrinsics& intrinsics) {
     const auto message = conversions::to_msg({frame.stamp, kFrameId, "rgb8", frame.colour});
     if (message) colour_.publish(*message);
   }
-  if (depth_.has_subscribers()) {
+  if (!frame.depth.empty() && depth_.has_subscribers()) {
     const auto message = conversions::to_msg({frame.stamp, kFrameId, "16UC1", frame.depth});
     if (message) depth_.publish(*message);
   }

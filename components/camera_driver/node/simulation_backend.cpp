@@ -16,17 +16,13 @@ constexpr Duration kTruthTimeout = std::chrono::milliseconds(500);
 }  // namespace
 
 SimulationBackend::SimulationBackend(runtime::Node& node, const CameraDriverConfig& config,
-                                     const robot::RobotModel& robot)
+                                     const Pose3& camera_in_base)
     : node_(node),
       config_(config.sim.camera),
       period_(seconds(1.0 / config.sim.rate)),
-      camera_in_base_(robot.mount(robot::kCameraOpticalFrame)),
+      camera_in_base_(camera_in_base),
       detector_(config.detector, d435i_intrinsics(config_.width, config_.height), camera_in_base_),
       topics_(node) {
-  node.publish_static_transform(robot::kBaseLink, robot::kCameraLink,
-                                robot.mount(robot::kCameraLink));
-  node.publish_static_transform(robot::kCameraLink, robot::kCameraOpticalFrame,
-                                robot.mount(robot::kCameraOpticalFrame, robot::kCameraLink));
   node.subscribe<coop_msgs::msg::World>(
       "world", Qos::kStateLatched,
       [this](const coop_msgs::msg::World& message) { receive_world(message); });

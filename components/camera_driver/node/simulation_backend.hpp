@@ -7,7 +7,6 @@
 #include "camera_driver/egg_detector.hpp"
 #include "camera_driver/node/camera_topics.hpp"
 #include "camera_driver/simulated_camera.hpp"
-#include "core/robot/robot_model.hpp"
 #include "runtime/node.hpp"
 
 namespace coop::camera_driver {
@@ -19,7 +18,7 @@ struct CameraDriverConfig;
 class SimulationBackend {
  public:
   SimulationBackend(runtime::Node& node, const CameraDriverConfig& config,
-                    const robot::RobotModel& robot);
+                    const Pose3& camera_in_base);
 
  private:
   void receive_world(const coop_msgs::msg::World& message);

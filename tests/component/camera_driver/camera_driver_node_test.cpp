@@ -8,6 +8,10 @@
 #include <sensor_msgs/msg/Image.h>
 #include <vision_msgs/msg/Detection3DArray.h>
 
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
 #include "conversions/detections.hpp"
 #include "conversions/image.hpp"
 #include "conversions/time.hpp"
@@ -16,6 +20,7 @@
 #include "core/robot/robot_model.hpp"
 #include "core/world/shapes.hpp"
 #include "support/component_fixture.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace coop::camera_driver {
 namespace {
@@ -160,7 +165,39 @@ TEST_F(CameraDriverNodeTest, ignores_a_world_and_a_ground_truth_that_are_none) {
   EXPECT_EQ(eggs_->size(), 2U);
 }
 
-TEST(CameraDriverNodeCheck, refuses_a_robot_without_a_camera_or_none_at_all) {
+TEST(FilesBackend, shows_each_picture_of_a_folder_with_its_eggs_and_ends) {
+  const coop::test::TemporaryFolder folder;
+  cv::Mat picture(400, 800, CV_8UC3, cv::Scalar(90, 90, 90));
+  cv::imwrite((folder.path() / "1_empty.png").string(), picture);
+  cv::ellipse(picture, {400, 200}, {25, 20}, 0, 0, 360, {120, 150, 200}, cv::FILLED, cv::LINE_AA);
+  cv::imwrite((folder.path() / "2_egg.png").string(), picture);
+  std::ofstream(folder.path() / "3_broken.png") << "no picture";
+  CameraDriverConfig config;
+  config.backend = "files";
+  config.robot = std::string(COOP_SOURCE_DIR) + "/config/robot/egg_collector.urdf";
+  config.files.folder = folder.path().string();
+  coop::test::ComponentFixture fixture;
+  const auto eggs = fixture.collect<Detection3DArray>("eggs", Qos::kEvent);
+  const auto images = fixture.collect<sensor_msgs::msg::Image>("camera/image", Qos::kSensorStream);
+  fixture.add<CameraDriverNode>("camera_driver", config);
+  fixture.advance(5s, 500ms);
+  ASSERT_EQ(eggs->size(), 2U);
+  EXPECT_EQ(images->size(), 2U);
+  EXPECT_TRUE((*eggs)[0].detections().empty());
+  EXPECT_EQ((*eggs)[1].detections().size(), 1U);
+  EXPECT_TRUE(fixture.node_of("camera_driver").wants_to_end());
+  EXPECT_EQ(fixture.node_of("camera_driver").exit_code(), 0);
+}
+
+TEST(CameraDriverNodeCheck, refuses_a_folder_without_pictures) {
+  CameraDriverConfig config;
+  config.backend = "files";
+  config.files.folder = "no/such/folder";
+  EXPECT_THAT([&] { CameraDriverNode::check(config); },
+              testing::ThrowsMessage<config::Error>(testing::HasSubstr("files.folder")));
+}
+
+TEST(CameraDriverNodeCheck, refuses_a_robot_that_is_not_there) {
   CameraDriverConfig config;
   config.robot = "no/such.urdf";
   EXPECT_ANY_THROW(CameraDriverNode::check(config));
