@@ -81,7 +81,7 @@ struct LocalMapConfig {
       0.15;             ///< m: an obstacle of the map this close to one that was seen is that one
   bool use_map = true;  ///< obstacles of the static map where the laser has not looked
   int occupied_from = 65;  ///< percent
-  InflationConfig inflation;
+  InflationConfig inflation{};
   ObstacleLayerConfig obstacles{.obstacle_range = 4.0, .clearing_range = 5.0, .persistence = 10.0};
 
   void describe(config::Fields& fields);
