@@ -93,12 +93,19 @@ void GlobalPlanner::set_goal(const Goal& goal, Time now) {
   }
 }
 
-void GlobalPlanner::cancel() {
-  if (!goal_) return;
+bool GlobalPlanner::cancel(const std::string& goal_id) {
+  if (goal_ && !goal_id.empty() && goal_id != goal_->id) return false;
+  finished_goal_ = goal_ ? goal_->id : goal_id;
   goal_.reset();
   drop_plan();
+  failing_since_.reset();
+  // Also where no goal is known here: the driver may hold a plan of before this planner's start.
+  plan_changed_ = true;
+  why_changed_ = "the goal was taken back";
   status_ = {};
   status_.state = PlannerState::kCancelled;
+  status_.goal_id = finished_goal_;
+  return true;
 }
 
 void GlobalPlanner::drop_plan() {
@@ -127,7 +134,6 @@ void GlobalPlanner::report(const DriverReport& report) {
 }
 
 GlobalPlanner::Changes GlobalPlanner::update(const std::optional<Pose2>& robot_in_map, Time now) {
-  const PlannerStatus before = status_;
   Changes changes;
   if (robot_in_map) estimate_direction(*robot_in_map, now);
   if (goal_ && (now >= next_check_ || check_now_)) {
@@ -142,7 +148,9 @@ GlobalPlanner::Changes GlobalPlanner::update(const std::optional<Pose2>& robot_i
   changes.plan = plan_changed_;
   changes.why = why_changed_;
   plan_changed_ = false;
-  changes.status = !(status_ == before);
+  // Goals and reports change the status between two calls as well.
+  changes.status = !(status_ == announced_);
+  announced_ = status_;
   return changes;
 }
 

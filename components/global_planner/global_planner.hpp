@@ -86,7 +86,10 @@ class GlobalPlanner {
 
   /// The same goal told again changes nothing, also after its end.
   void set_goal(const Goal& goal, Time now);
-  void cancel();
+  /// Takes back the goal of that name, or, where the name is empty, whichever is in force; its plan
+  /// is replaced by none, and the same goal told again stays taken back. False: another goal is in
+  /// force, which stays.
+  bool cancel(const std::string& goal_id);
   void report(const DriverReport& report);
 
   struct Changes {
@@ -118,8 +121,9 @@ class GlobalPlanner {
   PathPlanner planner_;
   PlanningMap map_;
   PlannerStatus status_;
+  PlannerStatus announced_;  ///< as of the last update()
   std::optional<Goal> goal_;
-  std::string finished_goal_;  ///< id of the last one that the driver brought to its end
+  std::string finished_goal_;  ///< id of the last one that came to its end or was taken back
   Plan plan_;
   Pose2 planned_goal_;
   std::vector<double> distances_;  ///< along plan_, m

@@ -38,7 +38,9 @@ constexpr auto kTopics = std::to_array<TopicInfo>({
     {"global_localization", "coop_msgs/GlobalLocalization", kEvent, 0, "person", "amcl",
      "localise from scratch"},
     {"goal_pose", "geometry_msgs/PoseStamped", kEvent, 0, "person, sequencer", "global_planner",
-     "where base_link is to go"},
+     "where base_link is to go, named by its stamp; an empty frame takes the goal of that stamp "
+     "back, "
+     "and without a stamp whichever is in force"},
     {"gripper", "coop_msgs/GripperState", kStream, 50, "arm_driver", "simulator",
      "suction, vacuum and the pose of the cup"},
     {"ground_truth", "coop_msgs/GroundTruth", kStream, 50, "simulator",

@@ -102,6 +102,10 @@ GlobalPlannerNode::GlobalPlannerNode(runtime::Node& node, const Config& config)
 }
 
 void GlobalPlannerNode::receive_goal(const geometry_msgs::msg::PoseStamped& message) {
+  if (message.header().frame_id().empty()) {
+    take_back_goal(message);
+    return;
+  }
   const auto goal = conversions::from_msg(message);
   if (!goal || goal->frame_id != "map") {
     node_.log().warning("goal refused: {}",
@@ -116,6 +120,18 @@ void GlobalPlannerNode::receive_goal(const geometry_msgs::msg::PoseStamped& mess
   }
   goal_stamp_ = stamp;
   planner_.set_goal({std::to_string(to_nanoseconds(stamp)), goal->value}, node_.now());
+}
+
+void GlobalPlannerNode::take_back_goal(const geometry_msgs::msg::PoseStamped& message) {
+  const auto stamp = conversions::from_msg(message.header().stamp());
+  if (!stamp) {
+    node_.log().warning("goal not taken back: {}", stamp.error());
+    return;
+  }
+  const bool any = *stamp == Time{};
+  if (!planner_.cancel(any ? "" : std::to_string(to_nanoseconds(*stamp)))) return;
+  if (!any) goal_stamp_ = *stamp;
+  node_.log().info("goal {} taken back", to_nanoseconds(goal_stamp_));
 }
 
 void GlobalPlannerNode::receive_driver(const NavigationStatus& message) {
@@ -190,7 +206,8 @@ void GlobalPlannerNode::publish_status() {
   message.source("global_planner");
   message.goal_id(status.goal_id);
   message.state(to_state(status.state));
-  message.reason(to_reason(status.reason));
+  message.reason(status.state == PlannerState::kCancelled ? Constants::CANCELLED
+                                                          : to_reason(status.reason));
   message.detail(status.detail);
   message.distance_remaining(status.path_length);
   message.path_cost(status.path_cost);

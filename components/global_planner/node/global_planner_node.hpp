@@ -22,7 +22,9 @@ struct GlobalPlannerNodeConfig {
 };
 
 /// Shell of the global planner. A goal's name is its stamp in nanoseconds; the plan carries the
-/// goal's stamp, so that dwa can answer for it. The same goal told again is the same goal.
+/// goal's stamp, so that dwa can answer for it. The same goal told again is the same goal; one
+/// without a frame takes the goal of its stamp back, one without a stamp as well whichever is in
+/// force.
 class GlobalPlannerNode {
  public:
   using Config = GlobalPlannerNodeConfig;
@@ -31,6 +33,7 @@ class GlobalPlannerNode {
 
  private:
   void receive_goal(const geometry_msgs::msg::PoseStamped& message);
+  void take_back_goal(const geometry_msgs::msg::PoseStamped& message);
   void receive_driver(const coop_msgs::msg::NavigationStatus& message);
   void receive_eggs(const coop_msgs::msg::MissionStatus& message);
   void integrate_scans();

@@ -13,6 +13,9 @@ using test::draw_room;
 using test::kRobotFootprint;
 using test::kTurningRadius;
 
+const Pose2 kStart{1.2, 2.5, 0.0};
+const Pose2 kGoal{4.0, 2.5, 0.0};
+
 /// A planner with a room, called ten times a second.
 class GlobalPlannerTest : public testing::Test {
  protected:
@@ -34,6 +37,18 @@ class GlobalPlannerTest : public testing::Test {
   }
   void set_goal(const std::string& id, const Pose2& pose) { planner_.set_goal({id, pose}, now_); }
 
+  /// Goal "1" and the plan to it.
+  void plan_to_goal() {
+    set_goal("1", kGoal);
+    run(0.5, kStart);
+  }
+  static DriverReport arrival(const std::string& goal_id) {
+    DriverReport report;
+    report.goal_id = goal_id;
+    report.arrived = true;
+    return report;
+  }
+
   /// A thing of 0.3 m in the way, as the laser sees it.
   void show_obstacle(const Pose2& robot, double range) {
     LaserScan scan;
@@ -50,9 +65,6 @@ class GlobalPlannerTest : public testing::Test {
   Time now_ = time_from_seconds(100.0);
   int plans_ = 0;
 };
-
-const Pose2 kStart{1.2, 2.5, 0.0};
-const Pose2 kGoal{4.0, 2.5, 0.0};
 
 TEST_F(GlobalPlannerTest, IsIdleWithoutAGoal) {
   run(2.0, kStart);
@@ -101,8 +113,7 @@ TEST_F(GlobalPlannerTest, FailsAGoalInTheWallAtOnceAndOffersAnother) {
 }
 
 TEST_F(GlobalPlannerTest, AGoalThatMovesALittleKeepsThePlanUnderItsNewName) {
-  set_goal("1", kGoal);
-  run(0.5, kStart);
+  plan_to_goal();
   const auto poses = planner_.plan();
   set_goal("2", {kGoal.x + 0.02, kGoal.y, 0.01});
   EXPECT_TRUE(run(0.1, kStart).plan);
@@ -111,16 +122,14 @@ TEST_F(GlobalPlannerTest, AGoalThatMovesALittleKeepsThePlanUnderItsNewName) {
 }
 
 TEST_F(GlobalPlannerTest, AGoalThatMovesFarIsPlannedAnew) {
-  set_goal("1", kGoal);
-  run(0.5, kStart);
+  plan_to_goal();
   set_goal("2", {4.0, 3.5, 0.0});
   EXPECT_TRUE(run(0.1, kStart).plan);
   EXPECT_EQ(planner_.plan().back(), (Pose2{4.0, 3.5, 0.0}));
 }
 
 TEST_F(GlobalPlannerTest, ASmallMoveOfTheGoalMattersMoreTheNearerTheRobot) {
-  set_goal("1", kGoal);
-  run(0.5, kStart);
+  plan_to_goal();
   set_goal("2", {kGoal.x + 0.08, kGoal.y, 0.0});
   run(0.5, kStart);
   EXPECT_EQ(planner_.plan().back(), kGoal);  // 2.8 m away: 0.03 m + 0.05 * 2.8 m is allowed
@@ -129,14 +138,12 @@ TEST_F(GlobalPlannerTest, ASmallMoveOfTheGoalMattersMoreTheNearerTheRobot) {
 }
 
 TEST_F(GlobalPlannerTest, ARobotThatStraysGetsANewPlan) {
-  set_goal("1", kGoal);
-  run(0.5, kStart);
+  plan_to_goal();
   EXPECT_TRUE(run(0.6, Pose2{1.6, 3.2, 0.3}).plan);
 }
 
 TEST_F(GlobalPlannerTest, PlansAroundAnObstacleThatAppears) {
-  set_goal("1", kGoal);
-  run(0.5, kStart);
+  plan_to_goal();
   show_obstacle(kStart, 1.6);
   EXPECT_TRUE(run(0.6, kStart).plan);
   double farthest = 0.0;
@@ -145,8 +152,7 @@ TEST_F(GlobalPlannerTest, PlansAroundAnObstacleThatAppears) {
 }
 
 TEST_F(GlobalPlannerTest, TheDriverMayAskForANewPlanOnce) {
-  set_goal("1", kGoal);
-  run(0.5, kStart);
+  plan_to_goal();
   DriverReport report;
   report.goal_id = "1";
   report.wants_new_plan = true;
@@ -156,12 +162,8 @@ TEST_F(GlobalPlannerTest, TheDriverMayAskForANewPlanOnce) {
 }
 
 TEST_F(GlobalPlannerTest, ForgetsTheGoalWhenTheDriverHasArrived) {
-  set_goal("1", kGoal);
-  run(0.5, kStart);
-  DriverReport report;
-  report.goal_id = "1";
-  report.arrived = true;
-  planner_.report(report);
+  plan_to_goal();
+  planner_.report(arrival("1"));
   run(0.5, kGoal);
   EXPECT_EQ(planner_.status().state, PlannerState::kIdle);
   set_goal("1", kGoal);
@@ -171,20 +173,44 @@ TEST_F(GlobalPlannerTest, ForgetsTheGoalWhenTheDriverHasArrived) {
 TEST_F(GlobalPlannerTest, IgnoresReportsAboutAnotherGoal) {
   set_goal("2", kGoal);
   run(0.5, kStart);
-  DriverReport report;
-  report.goal_id = "1";
-  report.arrived = true;
-  planner_.report(report);
+  planner_.report(arrival("1"));
   EXPECT_EQ(planner_.status().state, PlannerState::kPlanned);
 }
 
-TEST_F(GlobalPlannerTest, CancelTakesThePlanBack) {
-  set_goal("1", kGoal);
-  run(0.5, kStart);
-  planner_.cancel();
-  EXPECT_TRUE(run(0.1, kStart).plan);
+TEST_F(GlobalPlannerTest, AGoalTakenBackLeavesAnEmptyPlanAndIsNotTakenUpWhenToldAgain) {
+  plan_to_goal();
+  EXPECT_TRUE(planner_.cancel("1"));
+  const auto changes = run(0.1, kStart);
+  EXPECT_TRUE(changes.plan);
+  EXPECT_TRUE(changes.status);
   EXPECT_TRUE(planner_.plan().empty());
   EXPECT_EQ(planner_.status().state, PlannerState::kCancelled);
+  EXPECT_EQ(planner_.status().goal_id, "1");
+  plan_to_goal();
+  EXPECT_TRUE(planner_.plan().empty());
+}
+
+TEST_F(GlobalPlannerTest, WhoTakesAnotherGoalBackLeavesThisOneInForce) {
+  plan_to_goal();
+  EXPECT_FALSE(planner_.cancel("another"));
+  EXPECT_FALSE(run(0.5, kStart).plan);
+  EXPECT_EQ(planner_.status().state, PlannerState::kPlanned);
+}
+
+TEST_F(GlobalPlannerTest, WithoutANameTheGoalInForceIsTakenBack) {
+  plan_to_goal();
+  EXPECT_TRUE(planner_.cancel(""));
+  EXPECT_TRUE(run(0.1, kStart).plan);
+  EXPECT_EQ(planner_.status().goal_id, "1");
+}
+
+TEST_F(GlobalPlannerTest, AGoalOfBeforeItsStartIsTakenBackFromTheDriver) {
+  EXPECT_TRUE(planner_.cancel("1"));
+  const auto changes = run(0.1, kStart);
+  EXPECT_TRUE(changes.plan);
+  EXPECT_TRUE(planner_.plan().empty());
+  EXPECT_EQ(planner_.status().state, PlannerState::kCancelled);
+  EXPECT_EQ(planner_.status().goal_id, "1");
 }
 
 TEST_F(GlobalPlannerTest, DoesNotFlipBetweenWaysWhileTheRobotFollowsItsPlan) {
