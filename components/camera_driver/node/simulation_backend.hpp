@@ -1,13 +1,10 @@
 #pragma once
-#include <coop_msgs/msg/GroundTruth.h>
-#include <coop_msgs/msg/World.h>
-
 #include <optional>
 
 #include "camera_driver/egg_detector.hpp"
 #include "camera_driver/node/camera_topics.hpp"
 #include "camera_driver/simulated_camera.hpp"
-#include "runtime/node.hpp"
+#include "runtime/world_feed.hpp"
 
 namespace coop::camera_driver {
 
@@ -21,20 +18,13 @@ class SimulationBackend {
                     const Pose3& camera_in_base);
 
  private:
-  void receive_world(const coop_msgs::msg::World& message);
-  void receive_truth(const coop_msgs::msg::GroundTruth& message);
-  void check_freshness();
+  void measure(const world::GroundTruth& truth);
 
-  runtime::Node& node_;
-  SimulatedCameraConfig config_;
-  Duration period_;
-  Pose3 camera_in_base_;
   EggDetector detector_;
   std::optional<SimulatedCamera> camera_;
   Frame frame_;
-  std::int64_t last_turn_ = -1;  ///< number of the frame period of the last frame
-  Time last_truth_{};
   CameraTopics topics_;
+  runtime::WorldFeed feed_;
 };
 
 }  // namespace coop::camera_driver

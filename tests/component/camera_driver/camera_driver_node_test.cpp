@@ -1,7 +1,5 @@
 #include "camera_driver/node/camera_driver_node.hpp"
 
-#include <coop_msgs/msg/GroundTruth.h>
-#include <coop_msgs/msg/World.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sensor_msgs/msg/CameraInfo.h>
@@ -15,11 +13,11 @@
 #include "conversions/detections.hpp"
 #include "conversions/image.hpp"
 #include "conversions/time.hpp"
-#include "conversions/world.hpp"
 #include "core/config/error.hpp"
 #include "core/robot/robot_model.hpp"
 #include "core/world/shapes.hpp"
 #include "support/component_fixture.hpp"
+#include "support/simulated_world.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace coop::camera_driver {
@@ -36,48 +34,25 @@ class CameraDriverNodeTest : public testing::Test {
     config_.robot = std::string(COOP_SOURCE_DIR) + "/config/robot/egg_collector.urdf";
     eggs_ = fixture_.collect<Detection3DArray>("eggs", Qos::kEvent);
     fixture_.add<CameraDriverNode>("camera_driver", config_);
-    scene_.robot_in_world = {4.0, 1.5, 0.0};
+    simulator_.scene.robot_in_world = {4.0, 1.5, 0.0};
   }
 
-  /// Free floor, 8 m x 3 m.
-  void publish_world() {
-    world_ = fixture_.tester().advertise<coop_msgs::msg::World>("world", Qos::kStateLatched);
-    world::World world;
-    world.grid = OccupancyGrid({80, 30, 0.1, {0.0, 0.0}}, kFree);
-    world_.publish(conversions::to_msg(world, fixture_.now()));
-    fixture_.settle();
-  }
-  /// Ground truth of the scene at 50 Hz.
-  void publish_truth(Duration duration) {
-    if (!truth_) {
-      truth_.emplace(fixture_.tester().advertise<coop_msgs::msg::GroundTruth>("ground_truth",
-                                                                              Qos::kSensorStream));
-    }
-    for (Duration done{0}; done < duration; done += 20ms) {
-      fixture_.advance(20ms);
-      scene_.stamp = fixture_.now();
-      truth_->publish(conversions::to_msg(scene_));
-      fixture_.settle();
-    }
-  }
   void lay_egg(double x, double y) {
-    scene_.eggs.push_back({"egg_1", {x, y, world::kEggHalfWidth}, world::EggState::kOnFloor});
+    simulator_.scene.eggs.push_back(
+        {"egg_1", {x, y, world::kEggHalfWidth}, world::EggState::kOnFloor});
   }
-  [[nodiscard]] Health health() { return fixture_.node_of("camera_driver").health(); }
 
   CameraDriverConfig config_;
   coop::test::ComponentFixture fixture_;
-  world::GroundTruth scene_;
+  coop::test::SimulatedWorld simulator_{fixture_};
   std::shared_ptr<std::vector<Detection3DArray>> eggs_;
-  runtime::Publisher<coop_msgs::msg::World> world_;
-  std::optional<runtime::Publisher<coop_msgs::msg::GroundTruth>> truth_;
 };
 
 TEST_F(CameraDriverNodeTest, tells_where_an_egg_lies_at_the_stamp_of_the_frame) {
   (void)fixture_.tester().transforms();
   lay_egg(5.5, 1.4);
-  publish_world();
-  publish_truth(1s);
+  simulator_.publish_world();
+  simulator_.publish_truth(1s);
   ASSERT_EQ(eggs_->size(), 5U);
   const auto seen = conversions::from_msg(eggs_->back()).value();
   EXPECT_EQ(seen.frame_id, "camera_optical_frame");
@@ -94,8 +69,8 @@ TEST_F(CameraDriverNodeTest, tells_where_an_egg_lies_at_the_stamp_of_the_frame) 
 }
 
 TEST_F(CameraDriverNodeTest, says_that_it_sees_none) {
-  publish_world();
-  publish_truth(400ms);
+  simulator_.publish_world();
+  simulator_.publish_truth(400ms);
   ASSERT_EQ(eggs_->size(), 2U);
   EXPECT_TRUE(eggs_->front().detections().empty());
 }
@@ -105,8 +80,8 @@ TEST_F(CameraDriverNodeTest, shows_pictures_depth_and_calibration_of_one_stamp) 
   const auto depths = fixture_.collect<sensor_msgs::msg::Image>("camera/depth", Qos::kSensorStream);
   const auto infos =
       fixture_.collect<sensor_msgs::msg::CameraInfo>("camera/camera_info", Qos::kSensorStream);
-  publish_world();
-  publish_truth(400ms);
+  simulator_.publish_world();
+  simulator_.publish_truth(400ms);
   ASSERT_EQ(images->size(), 2U);
   ASSERT_EQ(depths->size(), 2U);
   ASSERT_EQ(infos->size(), 2U);
@@ -120,49 +95,30 @@ TEST_F(CameraDriverNodeTest, shows_pictures_depth_and_calibration_of_one_stamp) 
   EXPECT_EQ(info.width(), 424U);
   EXPECT_EQ(image.stamp, depth.stamp);
   EXPECT_EQ(image.stamp, *conversions::from_msg(info.header().stamp()));
-  // The floor where the axis meets it, 0.75 m below the camera, 0.60 rad down: 0.75 / sin 0.60.
+  // The floor where the axis meets it, 0.75 m below the camera, 0.62 rad down: 0.75 / sin 0.62.
   const auto on_axis =
       depth.pixels.at<std::uint16_t>(static_cast<int>(info.k()[5]), static_cast<int>(info.k()[2]));
-  EXPECT_NEAR(on_axis, 1328, 30);
+  EXPECT_NEAR(on_axis, 1291, 30);
 }
 
-TEST_F(CameraDriverNodeTest, is_degraded_without_world_or_ground_truth_and_recovers) {
+TEST_F(CameraDriverNodeTest, is_ready_with_the_simulator_and_degraded_without) {
   fixture_.advance(1s);
-  EXPECT_EQ(health(), Health::kDegraded);
-  publish_truth(200ms);
-  EXPECT_EQ(health(), Health::kDegraded);
-  EXPECT_TRUE(eggs_->empty());
-  publish_world();
-  publish_truth(200ms);
-  EXPECT_EQ(health(), Health::kReady);
-  fixture_.advance(1s);
-  EXPECT_EQ(health(), Health::kDegraded);
-  publish_truth(200ms);
-  EXPECT_EQ(health(), Health::kReady);
+  EXPECT_EQ(fixture_.node_of("camera_driver").health(), Health::kDegraded);
+  simulator_.publish_world();
+  simulator_.publish_truth(200ms);
+  EXPECT_EQ(fixture_.node_of("camera_driver").health(), Health::kReady);
 }
 
 TEST_F(CameraDriverNodeTest, one_that_started_late_sees_the_same) {
   lay_egg(5.5, 1.4);
-  publish_world();
-  publish_truth(300ms);
+  simulator_.publish_world();
+  simulator_.publish_truth(300ms);
   fixture_.add<CameraDriverNode>("late", config_);
   eggs_->clear();
-  publish_truth(400ms);
+  simulator_.publish_truth(400ms);
   ASSERT_EQ(eggs_->size(), 4U);
   EXPECT_EQ((*eggs_)[0], (*eggs_)[1]);
   EXPECT_EQ((*eggs_)[2], (*eggs_)[3]);
-}
-
-TEST_F(CameraDriverNodeTest, ignores_a_world_and_a_ground_truth_that_are_none) {
-  publish_world();
-  coop_msgs::msg::World nonsense;
-  world_.publish(nonsense);
-  lay_egg(5.5, std::numeric_limits<double>::quiet_NaN());
-  publish_truth(400ms);
-  EXPECT_TRUE(eggs_->empty());
-  scene_.eggs.clear();
-  publish_truth(400ms);
-  EXPECT_EQ(eggs_->size(), 2U);
 }
 
 TEST(FilesBackend, shows_each_picture_of_a_folder_with_its_eggs_and_ends) {

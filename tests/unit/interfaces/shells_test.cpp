@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/atomic_file.hpp"
 #include "runtime/topics.hpp"
 #include "unit/interfaces/endpoints.hpp"
 
@@ -23,7 +24,12 @@ std::map<std::string, SourceEndpoints> shells() {
   for (const auto& entry : std::filesystem::directory_iterator(kComponents)) {
     const auto node = entry.path() / "node";
     if (!std::filesystem::exists(node / "main.cpp")) continue;
-    result[entry.path().filename()] = find_endpoints(source_text(node));
+    std::string text = source_text(node);
+    // Endpoints that several shells share are declared for them in the runtime.
+    if (text.find("\"runtime/world_feed.hpp\"") != std::string::npos) {
+      text += read_file(kComponents / "runtime/world_feed.cpp");
+    }
+    result[entry.path().filename()] = find_endpoints(text);
   }
   return result;
 }
