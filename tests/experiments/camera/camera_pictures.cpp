@@ -77,6 +77,56 @@ void print(const Rings& rings) {
   }
 }
 
+world::Egg egg_before(const world::GroundTruth& truth, double x, int name) {
+  const Eigen::Vector2d at = truth.robot_in_world * Eigen::Vector2d(x, 0.0);
+  return {"egg_" + std::to_string(name),
+          {at.x(), at.y(), world::kEggHalfWidth},
+          world::EggState::kOnFloor};
+}
+
+/// Where, straight ahead on a free floor, eggs of all headings are found and whole in the picture.
+void measure_straight_ahead() {
+  constexpr double kWorkingPoint = 0.92;  // m
+  constexpr int kHeadings = 8;
+  world::World floor;
+  floor.grid = OccupancyGrid({100, 60, 0.1, {0.0, 0.0}}, kFree);
+  const Pose3 mount = test::camera_in_base();
+  SimulatedCamera camera({}, floor, mount, 7);
+  EggDetector detector({}, camera.intrinsics(), mount);
+  world::GroundTruth truth;
+  truth.robot_in_world = {2.0, 3.0, 0.0};
+  std::optional<double> first;
+  double last = 0.0;
+  Frame frame;
+  for (int step = 0; step <= 160; ++step) {
+    const double x = 0.80 + 0.02 * step;
+    const bool is_working_point = std::abs(x - kWorkingPoint) < 1e-9;
+    int found = 0;
+    double score = 1.0;
+    for (int i = 0; i < kHeadings; ++i) {
+      truth.stamp = time_from_seconds(1.0 + step + 0.1 * i);
+      truth.eggs = {egg_before(truth, x, i)};
+      camera.take(truth, frame);
+      const auto eggs = detector.detect(frame);
+      if (!eggs.empty()) score = std::min(score, eggs[0].score);
+      found += eggs.size() == 1 ? 1 : 0;
+    }
+    if (found == kHeadings) {
+      if (!first) first = x;
+      last = x;
+    }
+    if (!is_working_point) continue;
+    const Eigen::Vector3d egg = mount.inverse() * Eigen::Vector3d(x, 0.0, world::kEggHalfWidth);
+    const Intrinsics& lens = camera.intrinsics();
+    const double below = lens.height - lens.project(egg).y();
+    std::printf(
+        "working point: %d of %d found, lowest score %.2f, %.1f pixels to the border "
+        "beyond the egg's edge\n",
+        found, kHeadings, score, below - world::kEggHalfLength * lens.fy / egg.z());
+  }
+  std::printf("straight ahead: found from x = %.2f m to %.2f m\n", first.value_or(0.0), last);
+}
+
 void run(int frames, const std::optional<std::string>& folder) {
   constexpr double kNear = 2.5;  // m, eggs missed nearer than this are worth a picture
   constexpr int kOrdinaryPictures = 6;
@@ -122,6 +172,7 @@ void run(int frames, const std::optional<std::string>& folder) {
 
 int main(int argc, char** argv) {
   const int frames = argc > 1 ? std::atoi(argv[1]) : 200;
+  coop::camera_driver::measure_straight_ahead();
   coop::camera_driver::run(frames, argc > 2 ? std::optional<std::string>(argv[2]) : std::nullopt);
   return 0;
 }
