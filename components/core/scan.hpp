@@ -9,9 +9,10 @@
 namespace coop {
 
 /// One sweep of a planar range finder. Beam i points at angle_min + i * angle_increment in
-/// `frame_id` (x forward, yaw counter-clockwise). A range below range_min or above range_max, or
-/// NaN, is no measurement; +inf or any value above range_max means "nothing within range_max" (REP
-/// 117).
+/// `frame_id` (x forward, yaw counter-clockwise). Ranges that are no distance speak as in REP 117:
+/// +inf or any value above range_max is "nothing within range_max", the only one that frees the
+/// way; below range_min (-inf too) is "something too near to measure"; NaN is no measurement and
+/// says nothing.
 struct LaserScan {
   Time stamp{};  ///< acquisition of the first beam
   std::string frame_id;

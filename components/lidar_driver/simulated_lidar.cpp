@@ -12,7 +12,10 @@ namespace coop::lidar_driver {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
+// REP 117.
 constexpr double kNothing = std::numeric_limits<double>::infinity();
+constexpr double kTooNear = -kNothing;
+constexpr double kNoMeasurement = std::numeric_limits<double>::quiet_NaN();
 
 /// Seeds of neighbouring stamps must not be neighbours in any bit pattern the generator could show.
 std::uint64_t seed_of_scan(std::uint64_t seed, Time stamp) {
@@ -30,7 +33,7 @@ void SimulatedLidarConfig::describe(config::Fields& fields) {
   fields.number("range_noise", range_noise,
                 {.unit = "m", .help = "deviation of one range", .min = 0, .max = 1});
   fields.number("dropout", dropout,
-                {.unit = "1", .help = "share of beams that return nothing", .min = 0, .max = 1});
+                {.unit = "1", .help = "share of beams without a measurement", .min = 0, .max = 1});
 }
 
 void SimulatedLidarConfig::validate() const {
@@ -72,8 +75,14 @@ void SimulatedLidar::measure(const world::GroundTruth& truth, LaserScan& scan) c
     RandomStream noise(seed, streams_[i]);
     const bool lost = noise.uniform() < config_.dropout;
     range += noise.normal(0.0, config_.range_noise);
-    const bool measured = !lost && range >= config_.range_min && range <= config_.range_max;
-    scan.ranges[i] = static_cast<float>(measured ? range : kNothing);
+    if (lost) {
+      range = kNoMeasurement;
+    } else if (range > config_.range_max) {
+      range = kNothing;
+    } else if (range < config_.range_min) {
+      range = kTooNear;
+    }
+    scan.ranges[i] = static_cast<float>(range);
   }
 }
 

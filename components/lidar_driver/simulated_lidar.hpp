@@ -17,7 +17,7 @@ struct SimulatedLidarConfig {
   double range_min = 0.15;    ///< m
   double range_max = 12.0;    ///< m
   double range_noise = 0.01;  ///< m, deviation of one range
-  double dropout = 0.002;     ///< share of beams that return nothing although something is there
+  double dropout = 0.002;     ///< share of beams without a measurement, whatever is there
 
   void describe(config::Fields& fields);
   void validate() const;  ///< throws config::Error
@@ -32,7 +32,8 @@ class SimulatedLidar {
   SimulatedLidar(const SimulatedLidarConfig& config, const world::World& world,
                  const Pose2& laser_in_base, std::uint64_t seed);
 
-  /// Ranges below range_min and beams that meet nothing are +inf (REP 117: out of range).
+  /// As REP 117 has it: +inf for a beam that met nothing within range_max, -inf for what is nearer
+  /// than range_min, NaN for a beam that was lost. Only the first says that the way is free.
   /// Overwrites `scan`, whose memory is used again.
   void measure(const world::GroundTruth& truth, LaserScan& scan) const;
 

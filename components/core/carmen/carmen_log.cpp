@@ -230,6 +230,7 @@ LaserScan to_scan(const LaserRecord& record, std::string frame_id) {
   scan.ranges = record.ranges;
   for (float& range : scan.ranges) {
     if (range >= scan.range_max) range = std::numeric_limits<float>::infinity();
+    if (range <= 0.0F) range = std::numeric_limits<float>::quiet_NaN();
   }
   return scan;
 }

@@ -127,7 +127,8 @@ std::size_t sort_by_stamp(std::vector<Record>& records);
 /// Odometry that the laser record carries (velocity unknown, zero): a log's laser lines are
 /// odometry readings too.
 [[nodiscard]] Odometry to_odometry(const LaserRecord& record);
-/// Scan in the laser's frame; readings at or above range_max become +inf.
+/// Scan in the laser's frame; readings at or above range_max become +inf (met nothing), those of
+/// zero or less NaN (no measurement).
 [[nodiscard]] LaserScan to_scan(const LaserRecord& record, std::string frame_id);
 
 }  // namespace coop::carmen

@@ -40,6 +40,8 @@ TEST(SelectBeams, LeavesOutWhatIsNoMeasurement) {
   BeamEnds ends;
   select_beams(cross({kInf, kNan, 0.05F, 31.0F}), {}, 4, 20, 0, ends);
   EXPECT_EQ(ends.size(), 0u);
+  select_beams(cross({-kInf, kNan, kNan, kNan}), {}, 4, 20, 0, ends);
+  EXPECT_EQ(ends.size(), 0u);
   select_beams(cross({25.0F, 2.0F, kNan, 1.0F}), {}, 4, 20, 0, ends);
   EXPECT_EQ(ends.size(), 2u) << "25 m is above max_range";
 }

@@ -218,6 +218,16 @@ TEST(CarmenLog, ScanOfARecordCallsReadingsBeyondTheRangeMisses) {
   EXPECT_EQ(to_odometry(laser).base_in_odom, (Pose2{1, 2, 3}));
 }
 
+TEST(CarmenLog, AReadingOfZeroIsNoMeasurement) {
+  LaserRecord laser;
+  laser.range_max = 80.0;
+  laser.ranges = {0.0F, 2.0F};
+  const LaserScan scan = to_scan(laser, "laser_link");
+  EXPECT_TRUE(std::isnan(scan.ranges[0]));
+  EXPECT_FALSE(scan.is_hit(0));
+  EXPECT_TRUE(scan.is_hit(1));
+}
+
 TEST(CarmenLog, MissingFileIsASystemError) {
   EXPECT_THROW(LogReader(std::filesystem::path("/nowhere/at/all.clf")), std::system_error);
   EXPECT_THROW(LogReader(std::filesystem::path("/tmp")), std::system_error);

@@ -55,10 +55,17 @@ TEST(ObstacleLayer, ABeamThatHitsNothingClearsUpToTheRangeLimit) {
 }
 
 TEST(ObstacleLayer, NanAndTooNearReadingsSayNothing) {
-  ObstacleLayer layer = make_layer();
-  layer.integrate(scan_of({std::numeric_limits<float>::quiet_NaN(), 0.01F}, 10.0), at(0.55, 0.55),
-                  kFootprint);
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kTooNear = -std::numeric_limits<float>::infinity();
+  ObstacleLayer layer = make_layer({.hold_time = 0.0});
+  layer.integrate(scan_of({kNan, 0.01F}, 10.0), at(0.55, 0.55), kFootprint);
+  layer.integrate(scan_of({kTooNear, kNan}, 10.1), at(0.55, 0.55), kFootprint);
   for (const State state : layer.states()) EXPECT_EQ(state, State::kUnseen);
+  layer.integrate(scan_of({1.0F}, 10.2), at(0.55, 0.55), kFootprint);
+  for (const float silent : {kNan, kTooNear}) {
+    layer.integrate(scan_of({silent}, 11.0), at(0.55, 0.55), kFootprint);
+    EXPECT_EQ(layer.state({16, 5}), State::kMarked) << "a lost beam clears nothing";
+  }
 }
 
 TEST(ObstacleLayer, AnObstacleThatLeftIsClearedOnceItsHoldTimeIsOver) {

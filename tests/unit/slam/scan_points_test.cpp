@@ -49,6 +49,8 @@ TEST(ScanPoints, BeamThatMetNothingFreesItsWayWhereAskedTo) {
   const auto points = to_points(scan({1, infinity, 0.05F}), {}, {}, config);
   ASSERT_EQ(points.open_ends.size(), 1U) << "too near is no measurement and frees nothing";
   EXPECT_NEAR(points.open_ends[0].x(), 4.0, 1e-6);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(to_points(scan({nan, -infinity, nan}), {}, {}, config).open_ends.empty());
 }
 
 TEST(ScanPoints, EndBeyondTheMapRangeFreesTheWayUpToIt) {
