@@ -79,7 +79,7 @@ SimulatorNode::SimulatorNode(runtime::Node& node, const Config& config)
 void SimulatorNode::open_journal(const Config& config) {
   if (config.journal.empty()) return;
   const std::filesystem::path path = node_.options().run_dir / config.journal;
-  const auto stored = config.resume ? Journal::newest(path) : std::nullopt;
+  const auto stored = config.resume ? StateJournal::newest(path) : std::nullopt;
   if (stored) {
     try {
       simulation_->restore(*stored);
@@ -90,7 +90,7 @@ void SimulatorNode::open_journal(const Config& config) {
   }
   record_.clear();
   simulation_->store(record_);
-  journal_ = std::make_unique<Journal>(path, record_.size());
+  journal_ = std::make_unique<StateJournal>(path, record_.size());
   last_collisions_ = simulation_->ground_truth().collision_count;
 }
 

@@ -12,8 +12,8 @@
 #include <optional>
 #include <string>
 
+#include "core/state_journal.hpp"
 #include "runtime/node.hpp"
-#include "simulator/journal.hpp"
 #include "simulator/pacing.hpp"
 #include "simulator/simulation.hpp"
 
@@ -52,7 +52,7 @@ class SimulatorNode {
   world::World world_;
   RobotShape robot_;
   std::unique_ptr<Simulation> simulation_;
-  std::unique_ptr<Journal> journal_;
+  std::unique_ptr<StateJournal> journal_;
   std::string record_;
   Pacing pacing_;
   vehicle::DriveCause last_cause_ = vehicle::DriveCause::kNoCommand;

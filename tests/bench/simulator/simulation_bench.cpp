@@ -3,8 +3,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/state_journal.hpp"
 #include "experiments/worlds/duck_house.hpp"
-#include "simulator/journal.hpp"
 #include "simulator/simulation.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -46,7 +46,7 @@ void journal(benchmark::State& state) {
   auto simulation = duck_house_simulation(static_cast<int>(state.range(0)));
   std::string record;
   simulation.store(record);
-  simulator::Journal file(folder.path() / "simulator.journal", record.size());
+  StateJournal file(folder.path() / "simulator.journal", record.size());
   for (auto _ : state) {
     record.clear();
     simulation.store(record);

@@ -1,4 +1,4 @@
-#include "simulator/journal.hpp"
+#include "core/state_journal.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 
 #include "core/atomic_file.hpp"
 
-namespace coop::simulator {
+namespace coop {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x31304E524A4D4953ULL;  // "SIMJRN01"
@@ -60,7 +60,7 @@ std::optional<Record> find_newest(std::string_view file) {
 
 }  // namespace
 
-Journal::Journal(const std::filesystem::path& path, std::size_t capacity)
+StateJournal::StateJournal(const std::filesystem::path& path, std::size_t capacity)
     : path_(path), slot_size_(sizeof(BlockHeader) + capacity) {
   if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path());
   std::string old;
@@ -74,11 +74,11 @@ Journal::Journal(const std::filesystem::path& path, std::size_t capacity)
   if (::ftruncate(fd_, static_cast<off_t>(2 * slot_size_)) != 0) throw_errno("cannot size", path_);
 }
 
-Journal::~Journal() {
+StateJournal::~StateJournal() {
   if (fd_ >= 0) ::close(fd_);
 }
 
-void Journal::write(std::string_view record) {
+void StateJournal::write(std::string_view record) {
   if (sizeof(BlockHeader) + record.size() > slot_size_) {
     throw std::length_error("journal record too long");
   }
@@ -92,7 +92,7 @@ void Journal::write(std::string_view record) {
   }
 }
 
-std::optional<std::string> Journal::newest(const std::filesystem::path& path) {
+std::optional<std::string> StateJournal::newest(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return std::nullopt;
   const std::string file = read_file(path);
@@ -101,4 +101,4 @@ std::optional<std::string> Journal::newest(const std::filesystem::path& path) {
   return std::string(record->content);
 }
 
-}  // namespace coop::simulator
+}  // namespace coop

@@ -5,21 +5,20 @@
 #include <string>
 #include <string_view>
 
-namespace coop::simulator {
+namespace coop {
 
-/// The newest state of the simulation on disk, so that a simulator that was killed goes on from its
-/// last tick instead of teleporting the world. Two slots in one file are written in turn, each with
-/// number and checksum: a record torn by the end of the process leaves the one before it. A record
-/// costs one write() into the page cache; that outlives the process, though not the machine, which
-/// a simulation need not.
-class Journal {
+/// The newest state of something that runs on, on disk, so that a program that was killed goes on
+/// from there. Two slots in one file are written in turn, each with number and checksum: a record
+/// torn by the end of the process leaves the one before it. A record costs one write into the page
+/// cache; that outlives the process, though not the machine.
+class StateJournal {
  public:
   /// Creates the file and its folder where missing; records of a file made for the same capacity
   /// (bytes a record may have) stay until overwritten, others go. Throws std::system_error.
-  Journal(const std::filesystem::path& path, std::size_t capacity);
-  ~Journal();
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
+  StateJournal(const std::filesystem::path& path, std::size_t capacity);
+  ~StateJournal();
+  StateJournal(const StateJournal&) = delete;
+  StateJournal& operator=(const StateJournal&) = delete;
 
   /// Throws std::system_error (disk full) or std::length_error (beyond the capacity).
   void write(std::string_view record);
@@ -35,4 +34,4 @@ class Journal {
   std::string block_;
 };
 
-}  // namespace coop::simulator
+}  // namespace coop
