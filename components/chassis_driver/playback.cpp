@@ -26,6 +26,10 @@ Playback::Playback(const PlaybackConfig& config, Time begin, Time end)
   if (config.duration > 0.0) end_ = std::min(end, begin_ + seconds(config.duration));
 }
 
+void Playback::resume(Time position) {
+  begin_ = std::clamp(position, begin_, end_);
+}
+
 std::optional<Time> Playback::next(Time now) {
   if (!position_) {
     wall_base_ = now;

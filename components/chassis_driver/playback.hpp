@@ -25,6 +25,10 @@ class Playback {
   /// Of what lies between the stamps `begin` and `end`.
   Playback(const PlaybackConfig& config, Time begin, Time end);
 
+  /// Before the first next(): goes on from a position an earlier life had come to, which is the
+  /// first to be played then.
+  void resume(Time position);
+
   [[nodiscard]] Time begin() const { return begin_; }
   [[nodiscard]] Time end() const { return end_; }
   [[nodiscard]] bool started() const { return position_.has_value(); }

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,14 @@ class ScanLog {
   /// The next scan if its stamp is not after `until`, else nothing. It stays the next until pop().
   [[nodiscard]] const LaserScan* next(Time until) const;
   void pop() { ++next_; }
+  /// Goes on behind the first `scans` scans.
+  void skip(std::size_t scans) { next_ = std::min(scans, scans_.size()); }
+
+  /// Scans handed out.
+  [[nodiscard]] std::size_t position() const { return next_; }
+  /// First and last stamp.
+  [[nodiscard]] Time begin() const { return scans_.front().stamp; }
+  [[nodiscard]] Time end() const { return scans_.back().stamp; }
 
   [[nodiscard]] bool at_end() const { return next_ == scans_.size(); }
   [[nodiscard]] std::size_t size() const { return scans_.size(); }

@@ -24,6 +24,8 @@ class Publisher {
   bool publish(const Message& message) { return writer_->write(&message); }
   /// For messages that are dear to make: is anybody listening?
   [[nodiscard]] bool has_subscribers() const { return writer_->matched_readers() > 0; }
+  [[nodiscard]] int subscribers() const { return writer_->matched_readers(); }
+  /// True when every reliable reader has acknowledged everything; waits for it, by wall time.
   bool wait_for_acknowledgments(Duration timeout) {
     return writer_->wait_for_acknowledgments(timeout);
   }

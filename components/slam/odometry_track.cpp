@@ -7,13 +7,15 @@ namespace coop::slam {
 
 void OdometryTrack::insert(const StampedPose2& base_in_odom) {
   if (readings_.size() >= limit_) thin();
-  if (readings_.empty() || readings_.back().stamp <= base_in_odom.stamp) {
+  if (readings_.empty() || readings_.back().stamp < base_in_odom.stamp) {
     readings_.push_back(base_in_odom);
     return;
   }
-  readings_.insert(
-      std::ranges::upper_bound(readings_, base_in_odom.stamp, {}, &StampedPose2::stamp),
-      base_in_odom);
+  const auto same =
+      std::ranges::equal_range(readings_, base_in_odom.stamp, {}, &StampedPose2::stamp);
+  const bool repeated = std::ranges::any_of(
+      same, [&](const StampedPose2& reading) { return reading.pose == base_in_odom.pose; });
+  if (!repeated) readings_.insert(same.end(), base_in_odom);
 }
 
 Result<Pose2, OdometryTrack::Absence> OdometryTrack::at(Time stamp) const {

@@ -21,7 +21,8 @@ class OdometryTrack {
   /// At most `limit` readings; the older half is thinned to every second one when it is reached.
   explicit OdometryTrack(std::size_t limit = 4'000'000) : limit_(limit) {}
 
-  /// Readings that run back in time are sorted in; of equal stamps the later comes behind.
+  /// Readings that run back in time are sorted in; of equal stamps the later comes behind. One that
+  /// is there already, told again by a driver that was restarted, changes nothing.
   void insert(const StampedPose2& base_in_odom);
 
   /// Pose at the stamp, interpolated; the last of those that bear just this stamp.

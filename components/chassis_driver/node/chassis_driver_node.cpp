@@ -13,6 +13,7 @@ namespace coop::chassis_driver {
 namespace {
 
 constexpr std::array<std::string_view, 2> kBackends = {"loopback", "log"};
+constexpr std::array<std::string_view, 2> kEnds = {"finish", "stay"};
 
 OdometryLog load_log(const ChassisDriverConfig& config) {
   if (config.log.file.empty()) {
@@ -34,11 +35,15 @@ OdometryLog load_log(const ChassisDriverConfig& config) {
 void LogConfig::describe(config::Fields& fields) {
   fields.text("file", file, {.help = "CARMEN log"});
   fields.section("playback", playback);
-  fields.flag("wait_for_readers", wait_for_readers,
-              {.help = "start when somebody hears clock and odom"});
+  fields.integer(
+      "readers", readers,
+      {.unit = "1", .help = "start when so many hear clock and odom", .min = 0, .max = 50});
   fields.number(
       "settle", settle,
       {.unit = "s", .help = "between that and the start, wall time", .min = 0, .max = 60});
+  fields.flag("resume", resume, {.help = "go on where an earlier life of this run was killed"});
+  fields.choice("at_end", at_end, kEnds,
+                {.help = "the program ends, or tells the log's last time until it is stopped"});
   fields.number("patience", patience,
                 {.unit = "s",
                  .help = "that readers may take to acknowledge the end, wall time",

@@ -11,8 +11,10 @@ namespace coop::chassis_driver {
 struct LogConfig {
   std::string file;  ///< CARMEN log
   PlaybackConfig playback;
-  bool wait_for_readers = true;  ///< start when somebody hears clock and odom
-  double settle = 0.5;           ///< s of wall time between that and the start
+  int readers = 1;                ///< start when so many hear clock and odom
+  double settle = 0.5;            ///< s of wall time between that and the start
+  bool resume = true;             ///< go on where an earlier life of this run was killed
+  std::string at_end = "finish";  ///< "finish": the program ends; "stay": /clock goes on being told
   double patience =
       60.0;  ///< s of wall time that readers may take to acknowledge the last messages
 

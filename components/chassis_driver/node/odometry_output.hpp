@@ -13,7 +13,7 @@ class OdometryOutput {
 
   /// False when a reliable reader is too slow; nothing was published then.
   bool publish(const Odometry& odometry, const Eigen::Matrix3d& covariance);
-  [[nodiscard]] bool has_subscribers() const { return odom_.has_subscribers(); }
+  [[nodiscard]] int subscribers() const { return odom_.subscribers(); }
   bool wait_for_acknowledgments(Duration timeout) {
     return odom_.wait_for_acknowledgments(timeout);
   }

@@ -45,6 +45,12 @@ void LogConfig::describe(config::Fields& fields) {
   fields.text("file", file, {.help = "CARMEN log"});
   fields.section("section", section);
   fields.section("mount", mount);
+  fields.integer("readers", readers,
+                 {.unit = "1", .help = "start when so many hear the scans", .min = 1, .max = 50});
+  fields.number(
+      "settle", settle,
+      {.unit = "s", .help = "between that and the start, wall time", .min = 0, .max = 60});
+  fields.flag("resume", resume, {.help = "go on where an earlier life of this run was killed"});
   fields.number("patience", patience,
                 {.unit = "s",
                  .help = "that readers may take to acknowledge the end, wall time",

@@ -27,6 +27,9 @@ struct LogConfig {
   std::string file;  ///< CARMEN log
   LogSection section;
   MountConfig mount;
+  int readers = 1;         ///< start when so many hear the scans
+  double settle = 0.3;     ///< s of wall time between that and the start
+  bool resume = true;      ///< go on where an earlier life of this run was killed
   double patience = 60.0;  ///< s of wall time that readers may take to acknowledge the last scans
 
   void describe(config::Fields& fields);

@@ -81,6 +81,7 @@ void SlamNode::start_anew() {
   odometry_.clear();
   waiting_.clear();
   last_scan_ = Time{};
+  newest_scan_ = Time{};
 }
 
 void SlamNode::subscribe() {
@@ -101,6 +102,9 @@ void SlamNode::subscribe() {
             node_.log().warning("scan refused: {}", scan.error());
           return;
         }
+        // A log's player that was killed tells the last scans again.
+        if (scan->stamp < newest_scan_) return;
+        newest_scan_ = scan->stamp;
         if (waiting_.size() >= kMaxWaiting) {
           waiting_.pop_front();
           ++dropped_;

@@ -63,7 +63,8 @@ class SlamNode {
   std::size_t used_ = 0;     ///< of them: drawn into the map
   std::size_t dropped_ = 0;  ///< scans without odometry
   Time clock_{};
-  Time last_scan_{};  ///< by the clock, when it came
+  Time last_scan_{};    ///< by the clock, when it came
+  Time newest_scan_{};  ///< stamp
   bool map_changed_ = false;
   runtime::Publisher<nav_msgs::msg::OccupancyGrid> map_publisher_;
   runtime::Publisher<coop_msgs::msg::SaveMapResult> result_publisher_;

@@ -9,6 +9,7 @@
 #include <sensor_msgs/msg/LaserScan.h>
 
 #include <fstream>
+#include <set>
 
 #include "conversions/geometry.hpp"
 #include "conversions/navigation.hpp"
@@ -109,6 +110,11 @@ class LogTest : public testing::Test {
     config_.log.settle = 0.1;
   }
 
+  [[nodiscard]] runtime::Options options() const {
+    runtime::Options options;
+    options.run_dir = folder_.path();
+    return options;
+  }
   static Time stamp(double s) { return time_from_seconds(976052890.0 + s); }
 
   coop::test::TemporaryFolder folder_;
@@ -120,7 +126,7 @@ class LogTest : public testing::Test {
 
 TEST_F(LogTest, WaitsForReadersThenPlaysAtItsRateAndFinishes) {
   config_.log.playback.rate = 2.0;
-  fixture_.add<ChassisDriverNode>("chassis_driver", config_);
+  fixture_.add<ChassisDriverNode>("chassis_driver", config_, options());
   fixture_.advance(3s);
   const auto clocks = fixture_.collect<rosgraph_msgs::msg::Clock>("clock", Qos::kEvent);
   const auto odoms = fixture_.collect<nav_msgs::msg::Odometry>("odom", Qos::kSensorStream);
@@ -138,7 +144,7 @@ TEST_F(LogTest, WaitsForReadersThenPlaysAtItsRateAndFinishes) {
 
 TEST_F(LogTest, NeverTellsATimeBeforeTheOdometryUpToIt) {
   config_.log.playback.rate = 0.0;
-  config_.log.wait_for_readers = false;
+  config_.log.readers = 0;
   Time odometry{};
   Time clock{};
   fixture_.tester().subscribe<nav_msgs::msg::Odometry>(
@@ -149,10 +155,47 @@ TEST_F(LogTest, NeverTellsATimeBeforeTheOdometryUpToIt) {
   fixture_.tester().subscribe<rosgraph_msgs::msg::Clock>(
       "clock", Qos::kEvent,
       [&](const rosgraph_msgs::msg::Clock& message) { clock = *conversions::from_msg(message); });
-  fixture_.add<ChassisDriverNode>("chassis_driver", config_);
+  fixture_.add<ChassisDriverNode>("chassis_driver", config_, options());
   fixture_.advance(1s, 5ms);
   EXPECT_EQ(odometry, stamp(4.0));
   EXPECT_EQ(clock, stamp(4.0));
+}
+
+TEST_F(LogTest, AKilledPlayerGoesOnWhereItWasAndNeverSetsTheClockBack) {
+  config_.log.playback.rate = 2.0;
+  const auto clocks = fixture_.collect<rosgraph_msgs::msg::Clock>("clock", Qos::kEvent);
+  const auto odoms = fixture_.collect<nav_msgs::msg::Odometry>("odom", Qos::kSensorStream);
+  for (const Duration life : {200ms, 700ms, 10ms, 1ms * 5000}) {
+    fixture_.add<ChassisDriverNode>("chassis_driver", config_, options());
+    fixture_.advance(life, 5ms);
+    if (!fixture_.node_of("chassis_driver").wants_to_end()) fixture_.remove("chassis_driver", true);
+  }
+  EXPECT_EQ(fixture_.node_of("chassis_driver").health(), Health::kFinished);
+  for (std::size_t i = 1; i < clocks->size(); ++i) {
+    EXPECT_GE(*conversions::from_msg((*clocks)[i]), *conversions::from_msg((*clocks)[i - 1]));
+  }
+  std::set<Time> stamps;
+  for (const auto& odom : *odoms) stamps.insert(*conversions::from_msg(odom.header().stamp()));
+  EXPECT_EQ(stamps.size(), 41 + scans_in_log_) << "nothing is left out";
+  EXPECT_LE(odoms->size(), stamps.size() + 3) << "and little told twice";
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "chassis_driver.position"));
+}
+
+TEST_F(LogTest, StaysAndTellsTheLastTimeWhereAskedTo) {
+  config_.log.playback.rate = 20.0;
+  config_.log.at_end = "stay";
+  const auto odoms = fixture_.collect<nav_msgs::msg::Odometry>("odom", Qos::kSensorStream);
+  fixture_.add<ChassisDriverNode>("chassis_driver", config_, options());
+  const auto clocks = fixture_.collect<rosgraph_msgs::msg::Clock>("clock", Qos::kEvent);
+  fixture_.advance(1s, 5ms);
+  clocks->clear();
+  fixture_.remove("chassis_driver", true);
+  fixture_.add<ChassisDriverNode>("chassis_driver", config_, options());
+  fixture_.advance(1s, 5ms);
+  EXPECT_EQ(fixture_.node_of("chassis_driver").health(), Health::kReady);
+  EXPECT_EQ(odoms->size(), 41 + scans_in_log_);
+  ASSERT_GE(clocks->size(), 5U);
+  for (const auto& clock : *clocks) EXPECT_EQ(*conversions::from_msg(clock), stamp(4.0));
 }
 
 TEST_F(LogTest, RefusesALogThatIsNotThereOrHoldsNothing) {
@@ -176,13 +219,13 @@ TEST_F(LogTest, TheLidarPlaysTheSameLogInStepAndLosesNoScan) {
   runtime::ManualClock log_clock;
   runtime::Executor base_executor(wall);
   runtime::Executor laser_executor(log_clock);
-  runtime::Options options;
-  options.name = "chassis_driver";
-  runtime::Node base_node(options, bus, wall, base_executor);
-  options.name = "lidar_driver";
-  options.sim_time = true;
-  runtime::Node laser_node(options, bus, log_clock, laser_executor);
-  runtime::Node observer(options, bus, wall, base_executor);
+  runtime::Options own = options();
+  own.name = "chassis_driver";
+  runtime::Node base_node(own, bus, wall, base_executor);
+  own.name = "lidar_driver";
+  own.sim_time = true;
+  runtime::Node laser_node(own, bus, log_clock, laser_executor);
+  runtime::Node observer(own, bus, wall, base_executor);
 
   std::vector<LaserScan> scans;
   Time odometry{};
@@ -209,6 +252,7 @@ TEST_F(LogTest, TheLidarPlaysTheSameLogInStepAndLosesNoScan) {
   laser_config.backend = "log";
   laser_config.log.file = config_.log.file;
   laser_config.log.mount.x = 0.1;
+  laser_config.log.settle = 0.0;
   const lidar_driver::LidarDriverNode laser(laser_node, laser_config);
   for (int i = 0; i < 400; ++i) {
     wall.set(wall.now() + 5ms);

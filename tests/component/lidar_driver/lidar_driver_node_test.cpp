@@ -1,16 +1,20 @@
 #include "lidar_driver/node/lidar_driver_node.hpp"
 
-#include <coop_msgs/msg/GroundTruth.h>
-#include <coop_msgs/msg/World.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <rosgraph_msgs/msg/Clock.h>
 #include <sensor_msgs/msg/LaserScan.h>
+
+#include <filesystem>
+#include <fstream>
 
 #include "conversions/sensors.hpp"
 #include "conversions/time.hpp"
-#include "conversions/world.hpp"
+#include "core/carmen/carmen_log.hpp"
 #include "core/config/error.hpp"
 #include "support/component_fixture.hpp"
+#include "support/simulated_world.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace coop::lidar_driver {
 namespace {
@@ -21,16 +25,7 @@ using runtime::Qos;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// 8 m x 3 m of free floor; walls of one cell of 0.1 m around it.
-world::World room() {
-  world::World world;
-  world.grid = OccupancyGrid({82, 32, 0.1, {-0.1, -0.1}}, kOccupied);
-  for (int y = 1; y < 31; ++y) {
-    for (int x = 1; x < 81; ++x) world.grid[{x, y}] = kFree;
-  }
-  return world;
-}
-
+/// The robot stands at (4, 1) in a room of 8 m x 3 m.
 class LidarDriverNodeTest : public testing::Test {
  protected:
   LidarDriverNodeTest() {
@@ -39,40 +34,19 @@ class LidarDriverNodeTest : public testing::Test {
     config_.sim.lidar.dropout = 0.0;
     scans_ = fixture_.collect<sensor_msgs::msg::LaserScan>("scan", Qos::kSensorStream);
     fixture_.add<LidarDriverNode>("lidar_driver", config_);
-  }
-
-  void publish_world() {
-    world_ = fixture_.tester().advertise<coop_msgs::msg::World>("world", Qos::kStateLatched);
-    world_.publish(conversions::to_msg(room(), fixture_.now()));
-    fixture_.settle();
-  }
-  /// Ground truth at 50 Hz with the robot at (4, 1).
-  void publish_truth(Duration duration) {
-    if (!truth_) {
-      truth_.emplace(fixture_.tester().advertise<coop_msgs::msg::GroundTruth>("ground_truth",
-                                                                              Qos::kSensorStream));
-    }
-    for (Duration done{0}; done < duration; done += 20ms) {
-      fixture_.advance(20ms);
-      world::GroundTruth truth;
-      truth.stamp = fixture_.now();
-      truth.robot_in_world = {4.0, 1.0, 0.0};
-      truth_->publish(conversions::to_msg(truth));
-      fixture_.settle();
-    }
+    simulator_.scene.robot_in_world = {4.0, 1.0, 0.0};
   }
   [[nodiscard]] Health health() { return fixture_.node_of("lidar_driver").health(); }
 
   LidarDriverConfig config_;
   coop::test::ComponentFixture fixture_;
+  coop::test::SimulatedWorld simulator_{fixture_};
   std::shared_ptr<std::vector<sensor_msgs::msg::LaserScan>> scans_;
-  runtime::Publisher<coop_msgs::msg::World> world_;
-  std::optional<runtime::Publisher<coop_msgs::msg::GroundTruth>> truth_;
 };
 
 TEST_F(LidarDriverNodeTest, ScansTenTimesASecondOfSimulatedTime) {
-  publish_world();
-  publish_truth(1s);
+  simulator_.publish_world();
+  simulator_.publish_truth(1s);
   ASSERT_EQ(scans_->size(), 10U);
   const LaserScan scan = conversions::from_msg(scans_->back()).value();
   EXPECT_EQ(scan.ranges.size(), 360U);
@@ -84,8 +58,8 @@ TEST_F(LidarDriverNodeTest, ScansTenTimesASecondOfSimulatedTime) {
 }
 
 TEST_F(LidarDriverNodeTest, StampsAScanWithTheMomentItSaw) {
-  publish_world();
-  publish_truth(1s);
+  simulator_.publish_world();
+  simulator_.publish_truth(1s);
   const Time first = *conversions::from_msg(scans_->at(1).header().stamp());
   const Time second = *conversions::from_msg(scans_->at(2).header().stamp());
   EXPECT_EQ(second - first, 100ms);
@@ -101,19 +75,79 @@ TEST_F(LidarDriverNodeTest, TellsWhereTheLaserIsMounted) {
   EXPECT_NEAR(mount->translation().x(), 0.62, 1e-12);
 }
 
-TEST_F(LidarDriverNodeTest, IsDegradedWithoutWorldOrGroundTruthAndRecovers) {
+TEST_F(LidarDriverNodeTest, IsDegradedWithoutTheSimulator) {
   fixture_.advance(1s);
-  EXPECT_EQ(health(), Health::kDegraded);
-  publish_truth(200ms);
   EXPECT_EQ(health(), Health::kDegraded);
   EXPECT_TRUE(scans_->empty());
-  publish_world();
-  publish_truth(200ms);
-  EXPECT_EQ(health(), Health::kReady);
-  fixture_.advance(1s);
-  EXPECT_EQ(health(), Health::kDegraded);
-  publish_truth(200ms);
-  EXPECT_EQ(health(), Health::kReady);
+}
+
+/// Twenty scans, one every 0.1 s; the first range counts them.
+class LidarLogTest : public testing::Test {
+ protected:
+  LidarLogTest() {
+    std::ofstream out(folder_.path() / "drive.clf");
+    for (int i = 0; i < kScans; ++i) {
+      carmen::LaserRecord laser;
+      laser.stamp = stamp(i);
+      laser.range_max = 80.0;
+      laser.angle_increment = 0.1;
+      laser.ranges = {static_cast<float>(i + 1), 2.0F, 2.0F};
+      out << carmen::to_line(laser);
+    }
+    config_.backend = "log";
+    config_.log.file = folder_.path() / "drive.clf";
+    config_.log.settle = 0.0;
+    options_.run_dir = folder_.path();
+    options_.sim_time = true;
+    scans_ = fixture_.collect<sensor_msgs::msg::LaserScan>("scan", Qos::kSensorStream);
+    clock_ = fixture_.tester().advertise<rosgraph_msgs::msg::Clock>("clock", Qos::kEvent);
+  }
+  static Time stamp(int scan) { return time_from_seconds(2000.0 + 0.1 * scan); }
+  void start() { fixture_.add<LidarDriverNode>("lidar_driver", config_, options_); }
+  void tell(Time time) {
+    fixture_.set_time(time);
+    clock_.publish(conversions::to_clock_msg(time));
+    fixture_.settle();
+  }
+
+  static constexpr int kScans = 20;
+  coop::test::TemporaryFolder folder_;
+  LidarDriverConfig config_;
+  runtime::Options options_;
+  coop::test::ComponentFixture fixture_;
+  std::shared_ptr<std::vector<sensor_msgs::msg::LaserScan>> scans_;
+  runtime::Publisher<rosgraph_msgs::msg::Clock> clock_;
+};
+
+TEST_F(LidarLogTest, OneThatWasKilledGoesOnWhereItWas) {
+  start();
+  for (int i = 0; i <= 7; ++i) tell(stamp(i));
+  fixture_.remove("lidar_driver", true);
+  tell(stamp(12));
+  EXPECT_EQ(scans_->size(), 8U);
+  start();
+  tell(stamp(12));  // the clock stands, and is told again
+  EXPECT_EQ(scans_->size(), 13U) << "what was due meanwhile is made up for";
+  fixture_.remove("lidar_driver", true);
+  start();
+  for (int i = 12; i <= kScans; ++i) tell(stamp(i));
+  ASSERT_EQ(scans_->size(), static_cast<std::size_t>(kScans));
+  for (int i = 0; i < kScans; ++i) {
+    EXPECT_EQ((*scans_)[static_cast<std::size_t>(i)].ranges().front(), static_cast<float>(i + 1));
+  }
+  EXPECT_EQ(fixture_.node_of("lidar_driver").health(), Health::kFinished);
+  fixture_.remove("lidar_driver");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "lidar_driver.position"));
+}
+
+TEST_F(LidarLogTest, BeginsAtTheBeginningWhereToldTo) {
+  start();
+  tell(stamp(3));
+  fixture_.remove("lidar_driver", true);
+  config_.log.resume = false;
+  start();
+  tell(stamp(3));
+  EXPECT_EQ(scans_->size(), 8U);
 }
 
 TEST_F(LidarDriverNodeTest, RefusesALogThatIsNotThere) {

@@ -22,6 +22,24 @@ TEST(Playback, BeginsWithTheFirstStampWheneverThatIs) {
   EXPECT_FALSE(playback.next(at(100.0)).has_value());
 }
 
+TEST(Playback, GoesOnWhereAnEarlierLifeHadCome) {
+  Playback playback({.rate = 2.0}, kBegin, kEnd);
+  playback.resume(kBegin + 4s);
+  EXPECT_EQ(playback.next(at(100.0)), kBegin + 4s);
+  playback.advance(kBegin + 4s);
+  EXPECT_EQ(playback.next(at(100.01)), kBegin + 4020ms);
+}
+
+TEST(Playback, APositionOutsideTheSectionIsBroughtIntoIt) {
+  Playback playback({.start = 2.0, .duration = 3.0}, kBegin, kEnd);
+  playback.resume(kBegin);
+  EXPECT_EQ(playback.next(at(100.0)), kBegin + 2s);
+  playback.resume(kEnd);
+  EXPECT_EQ(playback.next(at(100.0)), kBegin + 5s);
+  playback.advance(kBegin + 5s);
+  EXPECT_TRUE(playback.at_end());
+}
+
 TEST(Playback, RunsAtItsRate) {
   Playback playback({.rate = 4.0}, kBegin, kEnd);
   playback.advance(*playback.next(at(100.0)));

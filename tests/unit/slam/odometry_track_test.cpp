@@ -55,5 +55,15 @@ TEST(OdometryTrack, ThinsTheOlderHalfWhenFull) {
   for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(track.readings()[i].pose.x, kept[i]);
 }
 
+TEST(OdometryTrack, AReadingToldAgainChangesNothing) {
+  OdometryTrack track;
+  for (int life = 0; life < 2; ++life) {
+    for (const double t : {1.0, 2.0, 3.0}) track.insert({time_from_seconds(t), {t, 0.0, 0.0}});
+  }
+  EXPECT_EQ(track.readings().size(), 3U);
+  track.insert({time_from_seconds(2.0), {5.0, 0.0, 0.0}});
+  EXPECT_EQ(track.readings().size(), 4U) << "the same stamp with another pose is another reading";
+}
+
 }  // namespace
 }  // namespace coop::slam
