@@ -15,6 +15,9 @@ constexpr Duration kGlance = std::chrono::milliseconds(50);
 /// Readings under way that readers need not have taken in yet; far less than what a write would
 /// block at, where no heart beats.
 constexpr std::size_t kWindow = 500;
+/// Busy readers acknowledge late, and what was written since hides it: so long after the last time
+/// that all was acknowledged the playback holds until it is, or a later life would repeat much.
+constexpr Duration kLongestDoubt = std::chrono::milliseconds(300);
 /// Steps a call: long enough to be fast, short enough to beat the heart and hear signals in
 /// between.
 constexpr int kStepsPerCall = 100;
@@ -104,12 +107,14 @@ void LogBackend::play() {
 
 void LogBackend::look_for_acknowledgments() {
   if (acknowledged_ < next_ && output_.wait_for_acknowledgments(Duration{0})) acknowledged_ = next_;
+  if (acknowledged_ == next_) sure_at_ = node_.now();
 }
 
 bool LogBackend::readers_keep_up() {
-  if (next_ - acknowledged_ <= kWindow) return true;
+  if (next_ - acknowledged_ <= kWindow && node_.now() - sure_at_ <= kLongestDoubt) return true;
   if (!output_.wait_for_acknowledgments(kGlance)) return false;
   acknowledged_ = next_;
+  sure_at_ = node_.now();
   return true;
 }
 

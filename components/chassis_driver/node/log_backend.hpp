@@ -49,6 +49,7 @@ class LogBackend {
   Duration patience_;
   Time heard_since_{};   ///< wall time
   Time announced_at_{};  ///< wall time
+  Time sure_at_{};       ///< wall time at which all was known to be acknowledged
   Time ended_at_{};      ///< wall time
   Time reminded_at_{};   ///< wall time
 };

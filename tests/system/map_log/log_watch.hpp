@@ -2,8 +2,7 @@
 #include <set>
 
 #include "core/time.hpp"
-#include "runtime/dds_transport.hpp"
-#include "runtime/node.hpp"
+#include "system/support/listener.hpp"
 
 namespace coop::test {
 
@@ -13,7 +12,7 @@ class LogWatch {
   explicit LogWatch(int domain);
 
   /// Takes in what has arrived.
-  void look() { executor_.run_once(); }
+  void look() { listener_.look(); }
   [[nodiscard]] const std::set<Time>& odometry() const { return odometry_; }
   [[nodiscard]] const std::set<Time>& scans() const { return scans_; }
   [[nodiscard]] int repeats() const { return repeats_; }  ///< readings and scans told twice
@@ -21,10 +20,7 @@ class LogWatch {
   [[nodiscard]] int clock_set_back() const { return clock_set_back_; }
 
  private:
-  runtime::DdsTransport transport_;
-  runtime::SystemClock clock_;
-  runtime::Executor executor_;
-  runtime::Node node_;
+  Listener listener_;
   std::set<Time> odometry_;
   std::set<Time> scans_;
   int repeats_ = 0;

@@ -78,7 +78,7 @@ TEST_F(MapLogSystem, PlayersThatAreKilledGoOnAndTheMapIsTheSame) {
     ASSERT_TRUE(wait_for_scans(110)) << "the playback went on";
   });
   RecordProperty("repeats", watch_->repeats());
-  EXPECT_LT(watch_->repeats(), 50);
+  EXPECT_LT(watch_->repeats(), 100) << "of 452 readings and 151 scans";
 
   const std::string trajectory = result("disturbed", "map_trajectory.txt");
   EXPECT_EQ(trajectory, result("undisturbed", "map_trajectory.txt"));

@@ -8,28 +8,16 @@ using coop_msgs::msg::GroundTruth;
 using coop_msgs::msg::MissionStatus;
 using runtime::Qos;
 
-namespace {
-
-runtime::Options options() {
-  runtime::Options options;
-  options.name = "mission_watch";
-  return options;
-}
-
-}  // namespace
-
-MissionWatch::MissionWatch(int domain)
-    : transport_({.domain = domain, .participant_name = "mission_watch", .partition = {}}),
-      executor_(clock_),
-      node_(options(), transport_, clock_, executor_) {
-  node_.subscribe<MissionStatus>("mission_status", Qos::kStateLatched,
-                                 [this](const MissionStatus& status) { mission_ = status; });
-  node_.subscribe<GroundTruth>("ground_truth", Qos::kSensorStream,
-                               [this](const GroundTruth& truth) { truth_ = truth; });
+MissionWatch::MissionWatch(int domain) : listener_(domain, "mission_watch") {
+  listener_.node().subscribe<MissionStatus>(
+      "mission_status", Qos::kStateLatched,
+      [this](const MissionStatus& status) { mission_ = status; });
+  listener_.node().subscribe<GroundTruth>("ground_truth", Qos::kSensorStream,
+                                          [this](const GroundTruth& truth) { truth_ = truth; });
 }
 
 void MissionWatch::look() {
-  executor_.run_once();
+  listener_.look();
 }
 
 int MissionWatch::eggs_picked() const {

@@ -3,8 +3,7 @@
 
 #include "coop_msgs/msg/GroundTruth.h"
 #include "coop_msgs/msg/MissionStatus.h"
-#include "runtime/dds_transport.hpp"
-#include "runtime/node.hpp"
+#include "system/support/listener.hpp"
 
 namespace coop::test {
 
@@ -22,10 +21,7 @@ class MissionWatch {
   [[nodiscard]] bool is_done() const;
 
  private:
-  runtime::DdsTransport transport_;
-  runtime::SystemClock clock_;
-  runtime::Executor executor_;
-  runtime::Node node_;
+  Listener listener_;
   coop_msgs::msg::MissionStatus mission_;
   coop_msgs::msg::GroundTruth truth_;
 };

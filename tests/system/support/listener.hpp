@@ -1,0 +1,37 @@
+#pragma once
+#include <string>
+
+#include "runtime/dds_transport.hpp"
+#include "runtime/node.hpp"
+
+namespace coop::test {
+
+/// A node of the test in the domain of a running system, which it hears as any other program would.
+class Listener {
+ public:
+  explicit Listener(int domain, const std::string& name, bool reliable_streams = false)
+      : transport_({.domain = domain,
+                    .participant_name = name,
+                    .partition = {},
+                    .reliable_streams = reliable_streams}),
+        executor_(clock_),
+        node_(options(name), transport_, clock_, executor_) {}
+
+  [[nodiscard]] runtime::Node& node() { return node_; }
+  /// Takes in what has arrived.
+  void look() { executor_.run_once(); }
+
+ private:
+  static runtime::Options options(const std::string& name) {
+    runtime::Options options;
+    options.name = name;
+    return options;
+  }
+
+  runtime::DdsTransport transport_;
+  runtime::SystemClock clock_;
+  runtime::Executor executor_;
+  runtime::Node node_;
+};
+
+}  // namespace coop::test
