@@ -40,8 +40,8 @@ Launch read(const std::filesystem::path& path, const std::vector<std::string>& o
 
 const std::vector<std::string>& launch_keys() {
   static const std::vector<std::string> keys{
-      "robot",   "domain", "use_sim_time", "reliable_streams", "seed",
-      "run_dir", "dds",    "variables",    "defaults",         "components"};
+      "robot", "domain",  "use_sim_time", "lockstep",  "trace",    "reliable_streams",
+      "seed",  "run_dir", "dds",          "variables", "defaults", "components"};
   return keys;
 }
 
@@ -130,6 +130,9 @@ void Launch::describe(config::Fields& fields) {
               {.help = "name of the robot, its DDS partition; empty: none, as ROS 2"});
   fields.integer("domain", domain, {.help = "DDS domain", .min = 0, .max = 232});
   fields.flag("use_sim_time", use_sim_time, {.help = "time comes from the topic clock"});
+  fields.flag("lockstep", lockstep,
+              {.help = "time goes on when every component is done with the tick before"});
+  fields.flag("trace", trace, {.help = "lockstep: a hash of every sample, in the run's folder"});
   fields.flag("reliable_streams", reliable_streams, {.help = "sensor streams lose no sample"});
   fields.integer("seed", seed, {.help = "root of every random number", .min = 0, .max = 9e15});
   fields.text("run_dir", run_dir, {.help = "each run gets a folder in it"});

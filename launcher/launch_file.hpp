@@ -64,6 +64,8 @@ struct Launch {
   std::string robot;                 ///< DDS partition; empty: none, as ROS 2
   int domain = 0;
   bool use_sim_time = false;
+  bool lockstep = false;  ///< every component runs its ticks in step with all others
+  bool trace = false;     ///< lockstep: a hash of every sample, in the run's folder
   bool reliable_streams = false;
   std::int64_t seed = 1;
   std::string run_dir = "runs";  ///< each run gets a folder of its own in it

@@ -41,6 +41,20 @@ void check_after(const Launch& launch, const Named& component) {
   }
 }
 
+/// One master of time, whom all others follow.
+void check_lockstep(const Launch& launch) {
+  if (!launch.lockstep) return;
+  const std::string where = launch.file.string() + ": lockstep: ";
+  if (!launch.use_sim_time) throw config::Error(where + "expected use_sim_time: true with it");
+  const auto masters = std::ranges::count_if(launch.components, [](const Named& component) {
+    return component.value.enabled && component.value.time == "system";
+  });
+  if (masters != 1) {
+    throw config::Error(where + "expected one component with `time: system`, found " +
+                        std::to_string(masters));
+  }
+}
+
 /// Depth-first, in the order of declaration, what a component waits for first.
 class StartOrder {
  public:
@@ -180,8 +194,8 @@ class Planner {
                    "--seed",    std::to_string(launch_.seed),
                    "--run-dir", run_folder_.string(),
                    "--log-dir", (run_folder_ / "logs").string()};
-      const bool is_master = component.value.time == "system";
-      if (launch_.use_sim_time && !is_master) arguments.emplace_back("--sim-time");
+      if (launch_.use_sim_time && !is_master(component)) arguments.emplace_back("--sim-time");
+      if (launch_.lockstep) add_lockstep(component, arguments);
       if (launch_.reliable_streams) arguments.emplace_back("--reliable-streams");
       const std::string config = config_of(component, planned.executable);
       if (!config.empty()) arguments.insert(arguments.end(), {"--config", config});
@@ -196,6 +210,19 @@ class Planner {
     return arguments;
   }
 
+  static bool is_master(const Named& component) { return component.value.time == "system"; }
+
+  void add_lockstep(const Named& component, std::vector<std::string>& arguments) const {
+    arguments.emplace_back("--lockstep");
+    if (launch_.trace) arguments.emplace_back("--trace");
+    if (!is_master(component)) return;
+    for (const Named& other : launch_.components) {
+      const bool takes_part = other.value.enabled && other.value.health == "heartbeat";
+      if (!takes_part || is_master(other)) continue;
+      arguments.insert(arguments.end(), {"--member", other.name});
+    }
+  }
+
   const Launch& launch_;
   const Places& places_;
   const std::filesystem::path& run_folder_;
@@ -208,6 +235,7 @@ class Planner {
 Plan make_plan(const Launch& launch, const Places& places,
                const std::filesystem::path& run_folder) {
   if (!launch.robot.empty()) check_name(launch.robot, launch.file.string() + ": robot");
+  check_lockstep(launch);
   for (const Named& component : launch.components) {
     check_name(component.name, component.where + ": components");
     check_after(launch, component);

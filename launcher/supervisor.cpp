@@ -159,7 +159,8 @@ void Supervisor::on_exit(pid_t pid, const ExitStatus& status, Instant now) {
     if (slot.start_again && !shutting_down()) launch(slot, now);
   } else if (!doom.empty()) {
     after_failure(slot, doom, false, now);
-  } else if (status.clean() && slot.planned->restart.policy != "always") {
+  } else if (status.clean() &&
+             (slot.planned->exit_ends_system || slot.planned->restart.policy != "always")) {
     after_clean_exit(slot, now);
   } else {
     after_failure(slot, status.text(), status.code == 1 && !slot.was_up, now);

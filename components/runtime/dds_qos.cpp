@@ -20,9 +20,11 @@ template <class EndpointQos>
 void apply_common(Qos intent, const DdsOptions& options, EndpointQos& qos) {
   const bool is_stream = intent == Qos::kSensorStream;
   const bool is_latched = intent == Qos::kStateLatched || intent == Qos::kHeartbeat;
-  const bool keeps_all = intent == Qos::kEvent || (is_stream && options.reliable_streams);
-  qos.reliability().kind = is_stream && !options.reliable_streams ? dds::BEST_EFFORT_RELIABILITY_QOS
-                                                                  : dds::RELIABLE_RELIABILITY_QOS;
+  const bool must_arrive = !is_stream || options.reliable_streams || options.complete;
+  const bool keeps_all = intent == Qos::kEvent || (is_stream && must_arrive) ||
+                         (intent == Qos::kCommand && options.complete);
+  qos.reliability().kind =
+      !must_arrive ? dds::BEST_EFFORT_RELIABILITY_QOS : dds::RELIABLE_RELIABILITY_QOS;
   qos.durability().kind =
       is_latched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
   qos.history().kind = keeps_all ? dds::KEEP_ALL_HISTORY_QOS : dds::KEEP_LAST_HISTORY_QOS;
@@ -59,8 +61,9 @@ void apply_intent(Qos intent, const DdsOptions& options, dds::DataWriterQos& qos
   apply_common(intent, options, qos);
   // Streams that must be complete slow their writer down; a stalled reader is dropped with its
   // participant's lease.
-  qos.reliability().max_blocking_time =
-      intent == Qos::kSensorStream ? Duration_t(10, 0) : Duration_t(0, 200'000'000);
+  qos.reliability().max_blocking_time = intent == Qos::kSensorStream || options.complete
+                                            ? Duration_t(10, 0)
+                                            : Duration_t(0, 200'000'000);
   // Only offered, never requested: a ROS 2 publisher without a deadline may drive the robot too.
   if (intent == Qos::kCommand) qos.deadline().period = Duration_t(0, 200'000'000);
   if (intent == Qos::kHeartbeat) {

@@ -4,6 +4,7 @@
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/log/Log.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/publisher/qos/PublisherQos.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -14,6 +15,7 @@
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <map>
 #include <mutex>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -30,6 +32,7 @@ struct DdsTransport::Impl {
   dds::Subscriber* subscriber = nullptr;
   std::mutex mutex;
   std::map<std::string, dds::Topic*> topics;
+  std::function<void()> match_callback = [] {};
 
   explicit Impl(const DdsOptions& wanted);
   ~Impl();
@@ -44,21 +47,68 @@ namespace {
   throw std::runtime_error("DDS: " + what);
 }
 
-/// Counts matches and passes on that data arrived.
-class ReaderListener : public dds::DataReaderListener {
- public:
-  explicit ReaderListener(std::function<void()> on_data) : on_data_(std::move(on_data)) {}
-  void on_data_available(dds::DataReader*) override { on_data_(); }
-
- private:
-  std::function<void()> on_data_;
-};
-
 std::string identity(const eprosima::fastrtps::rtps::GUID_t& guid) {
   std::ostringstream out;
   out << guid;
   return std::move(out).str();
 }
+
+/// The counterparts an endpoint is matched with at present. Told by listener threads.
+class Matches {
+ public:
+  explicit Matches(std::function<void()> on_match) : on_match_(std::move(on_match)) {}
+  void change(const dds::InstanceHandle_t& counterpart, int change) {
+    eprosima::fastrtps::rtps::GUID_t guid;
+    eprosima::fastrtps::rtps::iHandle2GUID(guid, counterpart);
+    {
+      const std::scoped_lock lock(mutex_);
+      if (change > 0) {
+        counterparts_.insert(identity(guid));
+      } else {
+        counterparts_.erase(identity(guid));
+      }
+    }
+    on_match_();
+  }
+  [[nodiscard]] bool contains(const std::string& id) const {
+    const std::scoped_lock lock(mutex_);
+    return counterparts_.contains(id);
+  }
+  [[nodiscard]] int count() const {
+    const std::scoped_lock lock(mutex_);
+    return static_cast<int>(counterparts_.size());
+  }
+
+ private:
+  std::function<void()> on_match_;
+  mutable std::mutex mutex_;
+  std::set<std::string> counterparts_;
+};
+
+class ReaderListener : public dds::DataReaderListener {
+ public:
+  ReaderListener(std::function<void()> on_data, std::function<void()> on_match)
+      : matches(std::move(on_match)), on_data_(std::move(on_data)) {}
+  void on_data_available(dds::DataReader*) override { on_data_(); }
+  void on_subscription_matched(dds::DataReader*,
+                               const dds::SubscriptionMatchedStatus& status) override {
+    matches.change(status.last_publication_handle, status.current_count_change);
+  }
+  Matches matches;
+
+ private:
+  std::function<void()> on_data_;
+};
+
+class WriterListener : public dds::DataWriterListener {
+ public:
+  explicit WriterListener(std::function<void()> on_match) : matches(std::move(on_match)) {}
+  void on_publication_matched(dds::DataWriter*,
+                              const dds::PublicationMatchedStatus& status) override {
+    matches.change(status.last_subscription_handle, status.current_count_change);
+  }
+  Matches matches;
+};
 
 std::uint64_t to_number(const eprosima::fastrtps::rtps::SequenceNumber_t& sequence) {
   return (static_cast<std::uint64_t>(sequence.high) << 32U) + sequence.low;
@@ -70,14 +120,21 @@ class DdsWriter : public Writer {
   DdsWriter(const std::shared_ptr<Impl>& transport, dds::Topic* topic,
             const dds::DataWriterQos& qos)
       : transport_(transport),
+        listener_(transport->match_callback),
         publisher_(transport->publisher),
-        writer_(publisher_->create_datawriter(topic, qos)) {
+        writer_(publisher_->create_datawriter(topic, qos, &listener_,
+                                              dds::StatusMask::publication_matched())) {
     if (writer_ == nullptr) throw_dds("cannot create a writer of " + topic->get_name());
+    id_ = identity(writer_->guid());
   }
-  ~DdsWriter() override { publisher_->delete_datawriter(writer_); }
+  ~DdsWriter() override {
+    writer_->set_listener(nullptr);
+    publisher_->delete_datawriter(writer_);
+  }
   DdsWriter(const DdsWriter&) = delete;
   DdsWriter& operator=(const DdsWriter&) = delete;
 
+  const std::string& id() const override { return id_; }
   bool write(const void* message) override {
     // The signature takes a mutable pointer; the generated serialisers only read.
     if (!writer_->write(const_cast<void*>(message))) return false;
@@ -85,10 +142,9 @@ class DdsWriter : public Writer {
     return true;
   }
   std::uint64_t sequence() const override { return sequence_; }
-  int matched_readers() const override {
-    dds::PublicationMatchedStatus status;
-    writer_->get_publication_matched_status(status);
-    return status.current_count;
+  int matched_readers() const override { return listener_.matches.count(); }
+  bool reaches(const std::string& reader_id) const override {
+    return listener_.matches.contains(reader_id);
   }
   bool wait_for_acknowledgments(Duration timeout) override {
     const auto nanoseconds = timeout.count();
@@ -100,8 +156,10 @@ class DdsWriter : public Writer {
 
  private:
   std::shared_ptr<void> transport_;  // keeps the participant while the writer lives
+  WriterListener listener_;
   dds::Publisher* publisher_;
   dds::DataWriter* writer_;
+  std::string id_;
   std::uint64_t sequence_ = 0;
 };
 
@@ -112,11 +170,13 @@ class DdsReader : public Reader {
             const dds::DataReaderQos& qos, std::function<void()> on_data)
       : transport_(transport),
         type_(type),
-        listener_(std::move(on_data)),
+        listener_(std::move(on_data), transport->match_callback),
         subscriber_(transport->subscriber),
         reader_(subscriber_->create_datareader(topic, qos, &listener_,
-                                               dds::StatusMask::data_available())) {
+                                               dds::StatusMask::data_available()
+                                                   << dds::StatusMask::subscription_matched())) {
     if (reader_ == nullptr) throw_dds("cannot create a reader of " + topic->get_name());
+    id_ = identity(reader_->guid());
   }
   ~DdsReader() override {
     reader_->set_listener(nullptr);
@@ -125,6 +185,7 @@ class DdsReader : public Reader {
   DdsReader(const DdsReader&) = delete;
   DdsReader& operator=(const DdsReader&) = delete;
 
+  const std::string& id() const override { return id_; }
   bool take(Sample& sample) override {
     std::shared_ptr<void> message = type_.create();
     dds::SampleInfo info;
@@ -138,10 +199,9 @@ class DdsReader : public Reader {
     }
     return false;
   }
-  int matched_writers() const override {
-    dds::SubscriptionMatchedStatus status;
-    reader_->get_subscription_matched_status(status);
-    return status.current_count;
+  int matched_writers() const override { return listener_.matches.count(); }
+  bool hears(const std::string& writer_id) const override {
+    return listener_.matches.contains(writer_id);
   }
 
  private:
@@ -159,6 +219,7 @@ class DdsReader : public Reader {
   ReaderListener listener_;
   dds::Subscriber* subscriber_;
   dds::DataReader* reader_;
+  std::string id_;
   eprosima::fastrtps::rtps::GUID_t last_writer_;
   std::string last_writer_name_;
 };
@@ -223,6 +284,10 @@ std::unique_ptr<Reader> DdsTransport::create_reader(const std::string& topic,
   apply_intent(qos, impl_->options, reader_qos);
   return std::make_unique<DdsReader>(impl_, impl_->topic(topic, type), type, reader_qos,
                                      std::move(on_data));
+}
+
+void DdsTransport::on_match(std::function<void()> callback) {
+  impl_->match_callback = std::move(callback);
 }
 
 }  // namespace coop::runtime

@@ -12,8 +12,10 @@ struct DdsOptions {
   /// Robots that share a domain are told apart by a partition of this name; empty: the default
   /// partition, as ROS 2 uses.
   std::string partition;
-  /// Sensor streams reliable and complete: for replaying logs and for lockstep.
+  /// Sensor streams reliable and complete, for replaying logs.
   bool reliable_streams = false;
+  /// No sample of any topic is replaced by a newer one before its readers have it: for lockstep.
+  bool complete = false;
 };
 
 /// Fast DDS behind the Transport interface: UDPv4 with 4 MiB buffers, data-sharing off, participant
@@ -27,6 +29,7 @@ class DdsTransport : public Transport {
                                         Qos qos) override;
   std::unique_ptr<Reader> create_reader(const std::string& topic, const MessageType& type, Qos qos,
                                         std::function<void()> on_data) override;
+  void on_match(std::function<void()> callback) override;
 
  private:
   struct Impl;

@@ -45,6 +45,7 @@ void Executor::wake() noexcept {
 bool Executor::run_once() {
   const bool had_inputs = run_inputs();
   const bool had_timers = run_timers();
+  round_end_();
   return had_inputs || had_timers;
 }
 
@@ -111,6 +112,16 @@ void Executor::wait_and_run(std::chrono::nanoseconds timeout) {
     [[maybe_unused]] const ssize_t got = ::read(event_fd_, &count, sizeof count);
   }
   run_once();
+}
+
+void Executor::set_round_end(Callback callback) {
+  round_end_ = std::move(callback);
+}
+
+Time Executor::next_due() const {
+  Time next = Time::max();
+  for (const Timer& timer : timers_) next = std::min(next, timer.due);
+  return next;
 }
 
 void Executor::on_clock_jump() {

@@ -52,6 +52,10 @@ class Executor {
 
   bool run_inputs();
   bool run_timers();
+  /// Called at the end of every round.
+  void set_round_end(Callback callback);
+  /// When the next timer of the component's clock is due; Time::max() without timers.
+  [[nodiscard]] Time next_due() const;
   /// Re-bases the timers after the clock was set back or first set.
   void on_clock_jump();
 
@@ -74,6 +78,7 @@ class Executor {
   std::vector<InputSource*> sources_;
   std::vector<Timer> timers_;
   std::vector<WallTimer> wall_timers_;
+  Callback round_end_ = [] {};
 };
 
 }  // namespace coop::runtime

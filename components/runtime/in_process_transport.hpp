@@ -12,12 +12,14 @@ namespace coop::runtime {
 /// delivery within write(). Thread-safe.
 class InProcessTransport : public Transport {
  public:
-  InProcessTransport();
+  /// `complete`: streams and commands keep every sample, as in lockstep.
+  explicit InProcessTransport(bool complete = false);
   ~InProcessTransport() override;
   std::unique_ptr<Writer> create_writer(const std::string& topic, const MessageType& type,
                                         Qos qos) override;
   std::unique_ptr<Reader> create_reader(const std::string& topic, const MessageType& type, Qos qos,
                                         std::function<void()> on_data) override;
+  void on_match(std::function<void()> callback) override;
 
  private:
   struct Topic;

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace eprosima::fastdds::dds {
 class TopicDataType;
@@ -20,6 +21,8 @@ class MessageType {
   [[nodiscard]] virtual std::shared_ptr<const void> clone(const void* message) const = 0;
   /// Text that tells the instances of a keyed type apart, empty for types without key.
   [[nodiscard]] virtual std::string key_of(const void* message) const = 0;
+  /// The message as on the wire (CDR with its encapsulation header); padding is zero.
+  virtual void serialize(const void* message, std::vector<std::uint8_t>& out) const = 0;
   /// A new Fast DDS type support, owned by the caller.
   [[nodiscard]] virtual eprosima::fastdds::dds::TopicDataType* new_dds_type() const = 0;
 };

@@ -1,6 +1,8 @@
 #pragma once
 #include <fastdds/rtps/common/InstanceHandle.h>
+#include <fastdds/rtps/common/SerializedPayload.h>
 
+#include <algorithm>
 #include <fastdds/dds/topic/TopicDataType.hpp>
 
 #include "runtime/message_type.hpp"
@@ -26,6 +28,16 @@ class IdlMessageType : public MessageType {
     // The generated signature takes a mutable pointer but only reads.
     type.getKey(const_cast<void*>(message), &handle, false);
     return {reinterpret_cast<const char*>(&handle.value[0]), 16};
+  }
+  void serialize(const void* message, std::vector<std::uint8_t>& out) const override {
+    PubSubType type;
+    auto* mutable_message = const_cast<void*>(message);
+    eprosima::fastrtps::rtps::SerializedPayload_t payload(
+        type.getSerializedSizeProvider(mutable_message)());
+    // The serialiser steps over padding without writing it.
+    std::fill_n(payload.data, payload.max_size, std::uint8_t{0});
+    if (!type.serialize(mutable_message, &payload)) payload.length = 0;
+    out.assign(payload.data, payload.data + payload.length);
   }
   eprosima::fastdds::dds::TopicDataType* new_dds_type() const override {
     auto* type = new PubSubType();

@@ -43,6 +43,8 @@ struct Node::Impl {
   std::unique_ptr<TransformPublisher> transform_publisher;
   std::vector<std::function<void()>> stop_callbacks;
   std::vector<std::function<void()>> jump_callbacks;
+  std::optional<TimeLead> lead;
+  std::optional<Pacing> pacing;
   bool wants_to_end = false;
   int exit_code = 0;
 
@@ -53,8 +55,17 @@ struct Node::Impl {
         executor(runner),
         log(wanted.name, time, wanted.log_dir, wanted.verbose ? Level::kDebug : Level::kInfo) {}
 
+  void run_due_steps() {
+    const Duration lost_before = pacing->lost();
+    const int due = pacing->due(clock.now());
+    for (int i = 0; i < due; ++i) lead->step();
+    if (pacing->lost() > lost_before && log.is_due("lag", std::chrono::seconds(10))) {
+      log.warning("cannot keep up: {:.1f} s lost so far", to_seconds(pacing->lost()));
+    }
+  }
+
   TransformPublisher& broadcaster(Node& node) {
-    if (!transform_publisher) transform_publisher = std::make_unique<TransformPublisher>(node);
+    node.advertise_transforms();
     return *transform_publisher;
   }
 };
@@ -90,6 +101,21 @@ void Node::every(Duration period, std::function<void()> callback) {
   impl_->executor.add_timer(period, std::move(callback));
 }
 
+void Node::lead_time(TimeLead lead) {
+  if (options().sim_time) {
+    throw std::runtime_error(
+        "the master of time cannot follow a clock: start it without --sim-time");
+  }
+  impl_->lead = std::move(lead);
+  if (options().lockstep) return;
+  impl_->pacing.emplace(impl_->lead->rate, impl_->lead->period);
+  every(impl_->pacing->period(), [this] { impl_->run_due_steps(); });
+}
+
+const std::optional<TimeLead>& Node::time_lead() const {
+  return impl_->lead;
+}
+
 Time Node::now() const {
   return impl_->clock.now();
 }
@@ -108,6 +134,12 @@ const Options& Node::options() const {
 const TransformBuffer& Node::transforms(Duration history) {
   if (!impl_->listener) impl_->listener = std::make_unique<TransformListener>(*this, history);
   return impl_->listener->buffer();
+}
+
+void Node::advertise_transforms() {
+  if (!impl_->transform_publisher) {
+    impl_->transform_publisher = std::make_unique<TransformPublisher>(*this);
+  }
 }
 
 void Node::publish_transform(std::string_view parent, std::string_view child, Time stamp,

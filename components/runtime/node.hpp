@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,7 @@
 #include "runtime/executor.hpp"
 #include "runtime/log.hpp"
 #include "runtime/options.hpp"
+#include "runtime/pacing.hpp"
 #include "runtime/transport.hpp"
 
 namespace coop::runtime {
@@ -74,6 +76,11 @@ class Node {
   /// By the component's clock; first call one period from now.
   void every(Duration period, std::function<void()> callback);
 
+  /// For the one program that is the master of time: its world makes steps at the pace wanted, or,
+  /// in lockstep, when everybody is done with the step before. Called once, in the constructor.
+  void lead_time(TimeLead lead);
+  [[nodiscard]] const std::optional<TimeLead>& time_lead() const;
+
   /// System time, or the time of /clock with --sim-time: Time{} until its first message.
   [[nodiscard]] Time now() const;
   /// The number stream of one purpose within this component.
@@ -86,6 +93,8 @@ class Node {
   /// `history` counts at that first call: how long samples are kept behind the newest of their
   /// frame.
   [[nodiscard]] const TransformBuffer& transforms(Duration history = std::chrono::seconds(15));
+  /// Call it in the constructor where transforms are published only later.
+  void advertise_transforms();
   void publish_transform(std::string_view parent, std::string_view child, Time stamp,
                          const Pose3& child_in_parent);
   void publish_transform(std::string_view parent, std::string_view child, Time stamp,

@@ -18,6 +18,12 @@ std::optional<Options> parse_options(int argc, const char* const* argv, const st
   app.add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(CLI::Range(0, 232));
   app.add_option("--robot", options.robot, "robot name; robots of other names are not heard");
   app.add_flag("--sim-time", options.sim_time, "take the time from the topic clock");
+  app.add_flag("--lockstep", options.lockstep, "run in step with all other components");
+  app.add_option("--member", options.members,
+                 "lockstep, the master of time: one that must join before the first tick")
+      ->take_all();
+  app.add_flag("--trace", options.trace,
+               "lockstep: write down a hash of every sample written, in RUN_DIR/trace");
   app.add_flag("--reliable-streams", options.reliable_streams,
                "lose no sensor sample (log replay)");
   app.add_option("--seed", options.seed, "seed of all random numbers");

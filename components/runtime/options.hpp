@@ -16,6 +16,9 @@ struct Options {
   int domain = 0;                     ///< DDS domain
   std::string robot;                  ///< robot name: DDS partition; empty: none, as ROS 2
   bool sim_time = false;              ///< time comes from /clock
+  bool lockstep = false;              ///< runs its ticks in step with all others
+  std::vector<std::string> members;   ///< lockstep, the master: who must join before the first tick
+  bool trace = false;                 ///< lockstep: hash of every sample written, into run_dir
   bool reliable_streams = false;      ///< sensor streams complete instead of fresh (log replay)
   std::uint64_t seed = 1;             ///< of all random streams
   std::filesystem::path log_dir;      ///< JSON-lines log; empty: console only

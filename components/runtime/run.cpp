@@ -3,6 +3,8 @@
 #include "conversions/time.hpp"
 #include "rosgraph_msgs/msg/Clock.h"
 #include "runtime/dds_transport.hpp"
+#include "runtime/lockstep/follower.hpp"
+#include "runtime/lockstep/master.hpp"
 #include "runtime/stop_signal.hpp"
 
 namespace coop::runtime {
@@ -15,6 +17,13 @@ config::Document load_document(const Options& options) {
   return document;
 }
 
+/// The clock was moved, for the first time or back.
+void set_clock(Node& node, ManualClock& clock, Time time) {
+  const Time before = clock.now();
+  clock.set(time);
+  if (before == Time{} || time < before) node.handle_clock_jump();
+}
+
 /// Follows /clock. Steps of the clock wake the executor by themselves (they are inputs).
 class ClockFollower {
  public:
@@ -22,20 +31,20 @@ class ClockFollower {
     node.subscribe<rosgraph_msgs::msg::Clock>(
         "clock", Qos::kEvent, [&node, &clock](const rosgraph_msgs::msg::Clock& message) {
           const auto time = conversions::from_msg(message);
-          if (!time) return;
-          const Time before = clock.now();
-          clock.set(*time);
-          if (before == Time{} || *time < before) node.handle_clock_jump();
+          if (time) set_clock(node, clock, *time);
         });
   }
 };
 
-int run_component(const Options& options, const Program& program,
-                  const config::Document& document) {
-  DdsTransport transport({.domain = options.domain,
-                          .participant_name = options.name,
-                          .partition = options.robot,
-                          .reliable_streams = options.reliable_streams});
+void run_until_stopped(Executor& executor, const Node& node) {
+  while (!StopSignal::requested() && !node.wants_to_end()) {
+    executor.wait_and_run(std::chrono::milliseconds(500));
+  }
+}
+
+/// By system time or the topic clock.
+int run_freely(const Options& options, const Program& program, const config::Document& document,
+               Transport& transport) {
   const SystemClock system_clock;
   ManualClock sim_clock;
   const Clock& clock = options.sim_time ? static_cast<const Clock&>(sim_clock)
@@ -48,11 +57,66 @@ int run_component(const Options& options, const Program& program,
   if (options.sim_time) follower = std::make_unique<ClockFollower>(node, sim_clock);
   const std::shared_ptr<void> component = program.start(node, document);
   if (node.health() == Health::kStarting) node.set_ready();
-  while (!StopSignal::requested() && !node.wants_to_end()) {
-    executor.wait_and_run(std::chrono::milliseconds(500));
-  }
+  run_until_stopped(executor, node);
   node.stop();
   return node.exit_code();
+}
+
+int follow_lockstep(const Options& options, const Program& program,
+                    const config::Document& document, Transport& carrier,
+                    LockstepTransport& transport) {
+  ManualClock clock;
+  Executor executor(clock);
+  const StopSignal stop(executor);
+  LockstepFollower follower(executor, carrier, transport, options.name);
+  Node node(options, transport, clock, executor);
+  node.set_starting();
+  const std::shared_ptr<void> component = program.start(node, document);
+  if (node.health() == Health::kStarting) node.set_ready();
+  follower.join(node.log(), [&](Time time) { set_clock(node, clock, time); });
+  run_until_stopped(executor, node);
+  node.stop();
+  follower.leave();
+  return node.exit_code();
+}
+
+int lead_lockstep(const Options& options, const Program& program, const config::Document& document,
+                  Transport& carrier, LockstepTransport& transport) {
+  ManualClock clock;
+  Executor executor(clock);
+  const StopSignal stop(executor);
+  LockstepMaster master(executor, carrier, transport, options.name, options.members);
+  Node node(options, transport, clock, executor);
+  node.set_starting();
+  const std::shared_ptr<void> component = program.start(node, document);
+  if (!node.time_lead())
+    throw std::runtime_error("in lockstep it needs --sim-time: it is no master of time");
+  if (node.health() == Health::kStarting) node.set_ready();
+  TimeLead lead = *node.time_lead();
+  lead.step = [&clock, step = std::move(lead.step)] {
+    const Time reached = step();
+    clock.set(reached);
+    return reached;
+  };
+  master.start(node, lead);
+  run_until_stopped(executor, node);
+  node.stop();
+  return node.exit_code();
+}
+
+int run_component(const Options& options, const Program& program,
+                  const config::Document& document) {
+  DdsTransport carrier({.domain = options.domain,
+                        .participant_name = options.name,
+                        .partition = options.robot,
+                        .reliable_streams = options.reliable_streams,
+                        .complete = options.lockstep});
+  if (!options.lockstep) return run_freely(options, program, document, carrier);
+  std::optional<SampleTrace> trace;
+  if (options.trace) trace.emplace(options.run_dir, options.name);
+  LockstepTransport transport(carrier, options.name, trace ? &*trace : nullptr);
+  return options.sim_time ? follow_lockstep(options, program, document, carrier, transport)
+                          : lead_lockstep(options, program, document, carrier, transport);
 }
 
 }  // namespace

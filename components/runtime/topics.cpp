@@ -12,6 +12,8 @@ constexpr auto kEvent = Qos::kEvent;
 
 // Whatever drives the wheels: the driver of the real base, or the simulator in its place.
 constexpr std::string_view kBase = "chassis_driver, simulator";
+// The program that leads time in lockstep.
+constexpr std::string_view kMaster = "master of time";
 
 constexpr auto kTopics = std::to_array<TopicInfo>({
     {"amcl_pose", "geometry_msgs/PoseWithCovarianceStamped", kLatched, 0, "amcl", "person",
@@ -53,6 +55,14 @@ constexpr auto kTopics = std::to_array<TopicInfo>({
     {"local_costmap", "nav_msgs/OccupancyGrid", kStream, 0, "dwa", "person",
      "costs around the robot in percent"},
     {"local_plan", "nav_msgs/Path", kStream, 0, "dwa", "person", "the trajectory chosen"},
+    {"lockstep_done", "coop_msgs/LockstepDone", kEvent, 0, "all", kMaster,
+     "lockstep: ready for the round, done with the tick, or leaving"},
+    {"lockstep_join", "coop_msgs/LockstepJoin", kLatched, 0, "all", kMaster,
+     "lockstep: asks to be taken in"},
+    {"lockstep_roster", "coop_msgs/LockstepRoster", kLatched, 0, kMaster, "all",
+     "lockstep: who takes part from which tick on"},
+    {"lockstep_tick", "coop_msgs/LockstepTick", kEvent, 0, kMaster, "all",
+     "lockstep: run this tick; each component has a topic of its own, lockstep_tick/NAME"},
     {"map", "nav_msgs/OccupancyGrid", kLatched, 0, "amcl, slam", "dwa, global_planner, person",
      "the map being made, or the map served"},
     {"mission", "coop_msgs/Mission", kLatched, 0, "person", "sequencer",

@@ -21,12 +21,16 @@ struct Sample {
 class Writer {
  public:
   virtual ~Writer() = default;
+  /// Unique in the system; the `writer` of its samples.
+  [[nodiscard]] virtual const std::string& id() const = 0;
   /// False when the message could not be handed over in time (history of a reliable topic full,
   /// reader too slow).
   virtual bool write(const void* message) = 0;
   /// Sequence number of the last message written, 0 before the first.
   [[nodiscard]] virtual std::uint64_t sequence() const = 0;
   [[nodiscard]] virtual int matched_readers() const = 0;
+  /// Whether samples written from now on reach the reader of this id.
+  [[nodiscard]] virtual bool reaches(const std::string& reader_id) const = 0;
   /// Waits (wall time) until every reliable reader has acknowledged everything. False on time-out.
   virtual bool wait_for_acknowledgments(Duration timeout) = 0;
 };
@@ -34,9 +38,13 @@ class Writer {
 class Reader {
  public:
   virtual ~Reader() = default;
+  /// Unique in the system.
+  [[nodiscard]] virtual const std::string& id() const = 0;
   /// The next message in order of arrival; false when there is none.
   virtual bool take(Sample& sample) = 0;
   [[nodiscard]] virtual int matched_writers() const = 0;
+  /// Whether it listens to the writer of this id.
+  [[nodiscard]] virtual bool hears(const std::string& writer_id) const = 0;
 };
 
 /// Carries messages between nodes. Topic names are the project's own ("scan"); what they are on the
@@ -50,6 +58,9 @@ class Transport {
   /// `on_data` is called from any thread when there may be something to take.
   virtual std::unique_ptr<Reader> create_reader(const std::string& topic, const MessageType& type,
                                                 Qos qos, std::function<void()> on_data) = 0;
+  /// Called from any thread when an endpoint found or lost a counterpart. Set it before the first
+  /// endpoint is made.
+  virtual void on_match(std::function<void()> callback) = 0;
 };
 
 }  // namespace coop::runtime

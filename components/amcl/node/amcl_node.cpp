@@ -78,6 +78,7 @@ AmclNode::AmclNode(runtime::Node& node, const Config& config, const OccupancyGri
       pose_publisher_(node.advertise<PoseWithCovarianceStamped>("amcl_pose", Qos::kStateLatched)),
       cloud_publisher_(
           node.advertise<geometry_msgs::msg::PoseArray>("particle_cloud", Qos::kSensorStream)) {
+  node.advertise_transforms();
   map_publisher_.publish(conversions::to_msg(Stamped<OccupancyGrid>{node.now(), "map", map}));
   subscribe();
   node.every(seconds(config.transform_period), [this] {

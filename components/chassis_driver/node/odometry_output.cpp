@@ -6,7 +6,9 @@ namespace coop::chassis_driver {
 
 OdometryOutput::OdometryOutput(runtime::Node& node)
     : node_(node),
-      odom_(node.advertise<nav_msgs::msg::Odometry>("odom", runtime::Qos::kSensorStream)) {}
+      odom_(node.advertise<nav_msgs::msg::Odometry>("odom", runtime::Qos::kSensorStream)) {
+  node.advertise_transforms();
+}
 
 bool OdometryOutput::publish(const Odometry& odometry, const Eigen::Matrix3d& covariance) {
   conversions::FramedOdometry framed;

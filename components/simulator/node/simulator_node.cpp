@@ -44,6 +44,9 @@ void SimulatorConfig::describe(config::Fields& fields) {
                  .help = "simulated seconds a second; 0: as fast as possible",
                  .min = 0,
                  .max = 1000});
+  fields.number(
+      "duration", duration,
+      {.unit = "s", .help = "simulated time after which the simulation ends; 0: never", .min = 0});
   fields.text("journal", journal, {.help = "file of the state, in the run's folder; empty: none"});
   fields.flag("resume", resume, {.help = "go on from the journal where it is of this world"});
   fields.section("simulation", simulation);
@@ -54,10 +57,7 @@ void SimulatorNode::check(const Config& config) {
 }
 
 SimulatorNode::SimulatorNode(runtime::Node& node, const Config& config)
-    : node_(node), pacing_(config.rate, Simulation::kTick) {
-  if (node.options().sim_time) {
-    throw std::runtime_error("the simulator is the master of time: start it without --sim-time");
-  }
+    : node_(node), duration_(config.duration) {
   Scenery scenery = load(config, node.options().seed);
   world_ = std::move(scenery.world);
   robot_ = std::move(scenery.robot);
@@ -73,7 +73,10 @@ SimulatorNode::SimulatorNode(runtime::Node& node, const Config& config)
   world_publisher_.publish(conversions::to_msg(world_, simulation_->now()));
   node.publish_static_transform(robot::kBaseLink, robot::kImuLink, robot_.imu_in_base);
   subscribe();
-  node.every(pacing_.period(), [this] { run_due_ticks(); });
+  node.lead_time({.period = Simulation::kTick, .rate = config.rate, .step = [this] {
+                    tick();
+                    return simulation_->now();
+                  }});
 }
 
 void SimulatorNode::open_journal(const Config& config) {
@@ -116,15 +119,6 @@ void SimulatorNode::subscribe() {
       });
 }
 
-void SimulatorNode::run_due_ticks() {
-  const Duration lost_before = pacing_.lost();
-  const int ticks = pacing_.due(node_.now());
-  for (int i = 0; i < ticks; ++i) tick();
-  if (pacing_.lost() > lost_before && node_.log().is_due("lag", seconds(10))) {
-    node_.log().warning("cannot keep up: {:.1f} s lost so far", to_seconds(pacing_.lost()));
-  }
-}
-
 void SimulatorNode::tick() {
   simulation_->step();
   if (journal_) {
@@ -137,6 +131,13 @@ void SimulatorNode::tick() {
   imu_.publish(conversions::to_msg(simulation_->imu()));
   if (simulation_->has_new_reading()) publish_reading();
   report();
+  end_when_over();
+}
+
+void SimulatorNode::end_when_over() {
+  if (duration_ > 0.0 && simulation_->now() - Simulation::kStart >= seconds(duration_)) {
+    node_.finish("simulated " + std::to_string(duration_) + " s");
+  }
 }
 
 void SimulatorNode::publish_reading() {

@@ -14,7 +14,6 @@
 
 #include "core/state_journal.hpp"
 #include "runtime/node.hpp"
-#include "simulator/pacing.hpp"
 #include "simulator/simulation.hpp"
 
 namespace coop::simulator {
@@ -22,7 +21,8 @@ namespace coop::simulator {
 struct SimulatorConfig {
   std::string world = "maps/duck_house.world.yaml";
   std::string robot = "config/robot/egg_collector.urdf";
-  double rate = 1.0;  ///< simulated seconds a second; 0: as fast as possible
+  double rate = 1.0;      ///< simulated seconds a second; 0: as fast as possible
+  double duration = 0.0;  ///< s of simulated time after which the simulation ends; 0: never
   std::string journal = "simulator.journal";  ///< in the run's folder; empty: none
   bool resume = true;                         ///< go on from the journal where it is of this world
   SimulationConfig simulation;
@@ -43,8 +43,8 @@ class SimulatorNode {
  private:
   void open_journal(const Config& config);
   void subscribe();
-  void run_due_ticks();
   void tick();
+  void end_when_over();
   void publish_reading();
   void report();
 
@@ -54,7 +54,7 @@ class SimulatorNode {
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<StateJournal> journal_;
   std::string record_;
-  Pacing pacing_;
+  double duration_;
   vehicle::DriveCause last_cause_ = vehicle::DriveCause::kNoCommand;
   std::uint32_t last_collisions_ = 0;
 

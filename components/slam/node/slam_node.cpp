@@ -62,6 +62,7 @@ SlamNode::SlamNode(runtime::Node& node, const Config& config)
     clock_ = node_.now();
     process_scans(kScansPerCall);
   });
+  node.advertise_transforms();
   node.every(seconds(config.transform_period), [this] { publish_transform(); });
   node.every(seconds(config.map_period), [this] { publish_map(); });
   node.every(std::chrono::milliseconds(500), [this] { report_health(); });

@@ -117,9 +117,9 @@ TEST(Definitions, only_status_like_messages_of_our_own_are_keyed) {
       if (field.key) keys.insert(name + "." + field.name);
     }
   }
-  EXPECT_THAT(
-      keys, testing::ElementsAre("coop_msgs/ComponentStatus.name", "coop_msgs/EmergencyStop.source",
-                                 "coop_msgs/NavigationStatus.source"));
+  EXPECT_THAT(keys, testing::ElementsAre(
+                        "coop_msgs/ComponentStatus.name", "coop_msgs/EmergencyStop.source",
+                        "coop_msgs/LockstepJoin.name", "coop_msgs/NavigationStatus.source"));
 }
 
 TEST(Definitions, a_difference_in_order_type_or_bound_is_seen) {

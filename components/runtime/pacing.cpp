@@ -1,9 +1,9 @@
-#include "simulator/pacing.hpp"
+#include "runtime/pacing.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace coop::simulator {
+namespace coop::runtime {
 namespace {
 
 /// Largest number of ticks made up for at once.
@@ -38,4 +38,4 @@ int Pacing::due(Time wall_now) {
   return static_cast<int>(ticks);
 }
 
-}  // namespace coop::simulator
+}  // namespace coop::runtime

@@ -1,7 +1,16 @@
 #pragma once
+#include <functional>
+
 #include "core/time.hpp"
 
-namespace coop::simulator {
+namespace coop::runtime {
+
+/// How the master of time moves its world on: by `period` a step; step() answers the time reached.
+struct TimeLead {
+  Duration period{};
+  double rate = 0.0;  ///< simulated seconds a second; 0: as fast as possible
+  std::function<Time()> step;
+};
 
 /// How many ticks of simulated time are due at a wall time.
 class Pacing {
@@ -25,4 +34,4 @@ class Pacing {
   Duration lost_{0};
 };
 
-}  // namespace coop::simulator
+}  // namespace coop::runtime
