@@ -48,7 +48,8 @@ std::vector<SourceFile> read_tree(const fs::path& root) {
       if (is_foreign(entry->path())) entry.disable_recursion_pending();
       continue;
     }
-    if (!entry->is_regular_file()) continue;
+    // `.git` is a file where the checkout is one of several of a repository.
+    if (!entry->is_regular_file() || entry->path().filename() == ".git") continue;
     std::ifstream in(entry->path(), std::ios::binary);
     std::ostringstream text;
     text << in.rdbuf();

@@ -89,7 +89,7 @@ void LockstepCoordinator::route(std::size_t writer, const std::vector<LockstepMa
   Member& member = members_[writer];
   for (LockstepMark mark : marks) {
     if (mark.endpoint() >= member.readers_of.size()) continue;
-    mark.member(static_cast<std::uint16_t>(writer));
+    mark.member(static_cast<std::uint32_t>(writer));
     member.info.endpoints()[mark.endpoint()].sequence_number(mark.sequence_number());
     for (const std::size_t reader : member.readers_of[mark.endpoint()]) {
       raise(members_[reader].pending, mark);
@@ -136,7 +136,7 @@ const LockstepRoster& LockstepCoordinator::begin_round(Time now) {
       const auto& writer = before[mark.member()].info;
       const Member* now_at = find(writer.name());
       if (now_at == nullptr || now_at->info.incarnation() != writer.incarnation()) continue;
-      mark.member(static_cast<std::uint16_t>(now_at - members_.data()));
+      mark.member(static_cast<std::uint32_t>(now_at - members_.data()));
       pending.push_back(mark);
     }
     member.pending = std::move(pending);

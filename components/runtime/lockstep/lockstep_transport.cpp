@@ -250,7 +250,7 @@ void LockstepTransport::adopt(const LockstepRoster& roster) {
   for (const LockstepMember& member : roster.members()) {
     auto& marked = shared_->marked.emplace_back();
     for (const LockstepEndpoint& endpoint : member.endpoints()) {
-      const WriterRank rank{member.name(), static_cast<std::uint16_t>(marked.size())};
+      const WriterRank rank{member.name(), static_cast<std::uint32_t>(marked.size())};
       auto& mark = marked.emplace_back(Shared::Marked{rank, {}});
       if (endpoint.kind() != EndpointKind::WRITER) continue;
       for (const Shared::Endpoint& own : shared_->endpoints) {
@@ -322,7 +322,7 @@ std::vector<LockstepMark> LockstepTransport::take_published() {
     if (sequence == own.writer.reported) continue;
     own.writer.reported = sequence;
     LockstepMark mark;
-    mark.endpoint(static_cast<std::uint16_t>(i));
+    mark.endpoint(static_cast<std::uint32_t>(i));
     mark.sequence_number(sequence);
     marks.push_back(mark);
   }

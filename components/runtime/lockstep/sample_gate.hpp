@@ -11,7 +11,7 @@ namespace coop::runtime {
 /// Where a writer stands in the order in which samples are handled.
 struct WriterRank {
   std::string member;          ///< name of its component
-  std::uint16_t endpoint = 0;  ///< its place among the endpoints of that component
+  std::uint32_t endpoint = 0;  ///< its place among the endpoints of that component
   auto operator<=>(const WriterRank&) const = default;
 };
 

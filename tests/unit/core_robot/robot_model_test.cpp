@@ -62,11 +62,11 @@ TEST(RobotModel, GivesTheMountsOfTheSensorsInBaseLink) {
   const RobotModel model = egg_collector();
   EXPECT_TRUE(model.mount(kLaserLink).translation().isApprox(Eigen::Vector3d(0.62, 0.0, 0.32)));
   EXPECT_TRUE(model.mount(kWorkingPoint).translation().isApprox(Eigen::Vector3d(0.92, 0.0, 0.0)));
-  // The optical axis looks forward and 0.60 rad down, and x of the picture points to the robot's
+  // The optical axis looks forward and 0.62 rad down, and x of the picture points to the robot's
   // right.
   const Pose3 optical_in_base = model.mount(kCameraOpticalFrame);
   EXPECT_TRUE(optical_in_base.linear().col(2).isApprox(
-      Eigen::Vector3d(std::cos(0.60), 0.0, -std::sin(0.60)), 1e-9));
+      Eigen::Vector3d(std::cos(0.62), 0.0, -std::sin(0.62)), 1e-9));
   EXPECT_TRUE(optical_in_base.linear().col(0).isApprox(-Eigen::Vector3d::UnitY(), 1e-9));
 }
 

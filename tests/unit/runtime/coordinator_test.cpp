@@ -36,7 +36,7 @@ LockstepMember member(const std::string& name, std::vector<std::string> writes,
   return result;
 }
 
-LockstepMark mark(std::uint16_t endpoint, std::uint64_t sequence) {
+LockstepMark mark(std::uint32_t endpoint, std::uint64_t sequence) {
   LockstepMark result;
   result.endpoint(endpoint);
   result.sequence_number(sequence);
