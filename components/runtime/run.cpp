@@ -10,6 +10,9 @@
 namespace coop::runtime {
 namespace {
 
+/// How long a world that has come to its end waits for those who still work on its last tick.
+constexpr auto kLastTick = std::chrono::seconds(5);
+
 config::Document load_document(const Options& options) {
   config::Document document =
       options.config.empty() ? config::Document() : config::Document::load(options.config);
@@ -100,6 +103,10 @@ int lead_lockstep(const Options& options, const Program& program, const config::
   };
   master.start(node, lead);
   run_until_stopped(executor, node);
+  const auto patience = Executor::Wall::now() + kLastTick;
+  while (!master.finish() && !StopSignal::requested() && Executor::Wall::now() < patience) {
+    executor.wait_and_run(std::chrono::milliseconds(10));
+  }
   node.stop();
   return node.exit_code();
 }

@@ -70,7 +70,7 @@ bool LockstepMaster::handle_one() {
     return true;
   }
   if (coordinator_->phase() == LockstepCoordinator::Phase::kSettling) return settle();
-  if (!coordinator_->may_step() || (pacing_ && credit_ <= 0)) return false;
+  if (finishes_ || !coordinator_->may_step() || (pacing_ && credit_ <= 0)) return false;
   if (!marks_taken_) {
     for (const auto& mark : coordinator_->take_own_marks()) transport_.expect(mark);
     marks_taken_ = true;
@@ -79,6 +79,11 @@ bool LockstepMaster::handle_one() {
   transport_.release(coordinator_->tick() + 1);
   steps_ = true;
   return true;
+}
+
+bool LockstepMaster::finish() {
+  finishes_ = true;
+  return !coordinator_ || coordinator_->waits_for().empty();
 }
 
 bool LockstepMaster::receive() {

@@ -29,6 +29,8 @@ class LockstepMaster : public InputSource {
 
   /// After the component was made. `lead`: as given to Node::lead_time().
   void start(Node& node, const TimeLead& lead);
+  /// No further step; false as long as members still work on the last one.
+  [[nodiscard]] bool finish();
 
   bool handle_one() override;
 
@@ -57,6 +59,7 @@ class LockstepMaster : public InputSource {
   Time now_{};
   bool marks_taken_ = false;  ///< of the step to come
   bool steps_ = false;        ///< in the round that runs
+  bool finishes_ = false;
   Wall::time_point moved_;
 };
 
