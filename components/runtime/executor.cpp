@@ -28,8 +28,13 @@ void Executor::remove_source(InputSource& source) {
   std::erase(sources_, &source);
 }
 
-void Executor::add_timer(Duration period, Callback callback) {
-  timers_.push_back({period, clock_.now() + period, std::move(callback)});
+Time Executor::first_due(Duration period, bool aligned, Time now) {
+  return now + period - (aligned ? now.time_since_epoch() % period : Duration{0});
+}
+
+void Executor::add_timer(Duration period, Callback callback, bool aligned) {
+  timers_.push_back(
+      {period, aligned, first_due(period, aligned, clock_.now()), std::move(callback)});
 }
 
 void Executor::add_wall_timer(std::chrono::nanoseconds period, Callback callback) {
@@ -126,7 +131,7 @@ Time Executor::next_due() const {
 
 void Executor::on_clock_jump() {
   const Time now = clock_.now();
-  for (Timer& timer : timers_) timer.due = now + timer.period;
+  for (Timer& timer : timers_) timer.due = first_due(timer.period, timer.aligned, now);
 }
 
 }  // namespace coop::runtime

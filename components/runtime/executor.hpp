@@ -38,7 +38,8 @@ class Executor {
 
   /// Calls back every `period` of the component's clock, first one period from now. Late calls are
   /// not made up for.
-  void add_timer(Duration period, Callback callback);
+  /// `aligned`: at the multiples of `period` instead.
+  void add_timer(Duration period, Callback callback, bool aligned = false);
   /// The same by the steady clock, for what must go on while simulated time stands still.
   void add_wall_timer(std::chrono::nanoseconds period, Callback callback);
 
@@ -62,6 +63,7 @@ class Executor {
  private:
   struct Timer {
     Duration period;
+    bool aligned;
     Time due;
     Callback callback;
   };
@@ -71,6 +73,7 @@ class Executor {
     Callback callback;
   };
   [[nodiscard]] std::chrono::nanoseconds time_to_next_timer() const;
+  static Time first_due(Duration period, bool aligned, Time now);
   bool run_due_clock_timers(Time now);
 
   const Clock& clock_;

@@ -13,9 +13,12 @@ namespace {
 class Subscription : public InputSource {
  public:
   Subscription(Transport& transport, Executor& executor, const std::string& topic,
-               const MessageType& type, Qos qos, std::function<void(const Sample&)> callback)
+               const MessageType& type, Qos qos, Attention attention,
+               std::function<void(const Sample&)> callback)
       : callback_(std::move(callback)),
-        reader_(transport.create_reader(topic, type, qos, [&executor] { executor.wake(); })) {}
+        reader_(transport.create_reader(topic, type, qos, [&executor] { executor.wake(); })) {
+    if (attention == Attention::kPatient) reader_->be_patient();
+  }
 
   bool handle_one() override {
     Sample sample;
@@ -91,14 +94,18 @@ std::shared_ptr<Writer> Node::create_writer(const std::string& topic, const Mess
 }
 
 void Node::add_subscription(const std::string& topic, const MessageType& type, Qos qos,
-                            std::function<void(const Sample&)> callback) {
+                            Attention attention, std::function<void(const Sample&)> callback) {
   impl_->subscriptions.push_back(std::make_unique<Subscription>(
-      impl_->transport, impl_->executor, topic, type, qos, std::move(callback)));
+      impl_->transport, impl_->executor, topic, type, qos, attention, std::move(callback)));
   impl_->executor.add_source(*impl_->subscriptions.back());
 }
 
 void Node::every(Duration period, std::function<void()> callback) {
   impl_->executor.add_timer(period, std::move(callback));
+}
+
+void Node::every_aligned(Duration period, std::function<void()> callback) {
+  impl_->executor.add_timer(period, std::move(callback), true);
 }
 
 void Node::lead_time(TimeLead lead) {

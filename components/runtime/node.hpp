@@ -45,6 +45,13 @@ struct MessageInfo {
 enum class Health { kStarting, kReady, kDegraded, kStopping, kFinished };
 [[nodiscard]] std::string_view to_string(Health health);
 
+/// How soon a sample must be handled.
+///  - kAtOnce: the component acts on it.
+///  - kPatient: the callback only keeps it, for what the component does at its own times. In
+///  lockstep
+///    the component is not given a turn for its sake alone, which spares most of the turns.
+enum class Attention { kAtOnce, kPatient };
+
 /// The front door of the runtime: what a component sees of the world. All callbacks run on one
 /// thread, one at a time.
 class Node {
@@ -61,8 +68,9 @@ class Node {
 
   /// The callback takes (const Message&) or (const Message&, const MessageInfo&).
   template <class Message, class Callback>
-  void subscribe(const std::string& topic, Qos qos, Callback callback) {
-    add_subscription(topic, message_type<Message>(), qos,
+  void subscribe(const std::string& topic, Qos qos, Callback callback,
+                 Attention attention = Attention::kAtOnce) {
+    add_subscription(topic, message_type<Message>(), qos, attention,
                      [callback = std::move(callback)](const Sample& sample) mutable {
                        const auto& message = *static_cast<const Message*>(sample.message.get());
                        if constexpr (std::is_invocable_v<Callback&, const Message&>) {
@@ -75,6 +83,8 @@ class Node {
 
   /// By the component's clock; first call one period from now.
   void every(Duration period, std::function<void()> callback);
+  /// The same at the multiples of `period` on the clock.
+  void every_aligned(Duration period, std::function<void()> callback);
 
   /// For the one program that is the master of time: its world makes steps at the pace wanted, or,
   /// in lockstep, when everybody is done with the step before. Called once, in the constructor.
@@ -131,7 +141,7 @@ class Node {
   [[nodiscard]] std::shared_ptr<Writer> create_writer(const std::string& topic,
                                                       const MessageType& type, Qos qos);
   void add_subscription(const std::string& topic, const MessageType& type, Qos qos,
-                        std::function<void(const Sample&)> callback);
+                        Attention attention, std::function<void(const Sample&)> callback);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -9,10 +9,12 @@ namespace coop::runtime {
 TransformListener::TransformListener(Node& node, Duration history) : buffer_(history) {
   node.subscribe<tf2_msgs::msg::TFMessage>(
       "tf_static", Qos::kStateLatched,
-      [this, &node](const tf2_msgs::msg::TFMessage& message) { receive(node, message, true); });
+      [this, &node](const tf2_msgs::msg::TFMessage& message) { receive(node, message, true); },
+      Attention::kPatient);
   node.subscribe<tf2_msgs::msg::TFMessage>(
       "tf", Qos::kEvent,
-      [this, &node](const tf2_msgs::msg::TFMessage& message) { receive(node, message, false); });
+      [this, &node](const tf2_msgs::msg::TFMessage& message) { receive(node, message, false); },
+      Attention::kPatient);
 }
 
 void TransformListener::receive(Node& node, const tf2_msgs::msg::TFMessage& message,

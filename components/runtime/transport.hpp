@@ -43,6 +43,9 @@ class Reader {
   /// The next message in order of arrival; false when there is none.
   virtual bool take(Sample& sample) = 0;
   [[nodiscard]] virtual int matched_writers() const = 0;
+  /// Its samples may wait until the component has something else to do. Says nothing to transports
+  /// that deliver at once.
+  virtual void be_patient() {}
   /// Whether it listens to the writer of this id.
   [[nodiscard]] virtual bool hears(const std::string& writer_id) const = 0;
 };

@@ -28,13 +28,17 @@ WorldFeed::WorldFeed(Node& node, double rate, Handlers handlers)
         }
       });
   node.subscribe<coop_msgs::msg::GroundTruth>(
-      "ground_truth", Qos::kSensorStream, [this](const coop_msgs::msg::GroundTruth& message) {
+      "ground_truth", Qos::kSensorStream,
+      [this](const coop_msgs::msg::GroundTruth& message) {
         if (const auto truth = conversions::from_msg(message)) {
           receive(*truth);
         } else if (node_.log().is_due("truth", kComplaintPeriod)) {
           node_.log().warning("refused a ground truth: {}", truth.error());
         }
-      });
+      },
+      Attention::kPatient);
+  // Between its turns the truth only needs to be there.
+  node.every_aligned(period_, [] {});
   node.every(kTruthTimeout / 5, [this] { check_freshness(); });
 }
 

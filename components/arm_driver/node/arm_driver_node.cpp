@@ -91,7 +91,8 @@ void ArmDriverNode::open_device() {
           held = held || egg.state == world::EggState::kInGripper;
         }
         arm->hear_truth(held, node_.now());
-      });
+      },
+      runtime::Attention::kPatient);
   device_ = std::move(arm);
 }
 

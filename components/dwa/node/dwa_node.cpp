@@ -88,18 +88,22 @@ DwaNode::DwaNode(runtime::Node& node, const Config& config, const robot::RobotMo
 
 void DwaNode::subscribe() {
   node_.subscribe<nav_msgs::msg::Odometry>(
-      "odom", Qos::kSensorStream, [this](const nav_msgs::msg::Odometry& message) {
+      "odom", Qos::kSensorStream,
+      [this](const nav_msgs::msg::Odometry& message) {
         if (const auto odometry = conversions::from_msg(message)) {
           inputs_.odometry = odometry->odometry;
         }
-      });
-  node_.subscribe<sensor_msgs::msg::LaserScan>("scan", Qos::kSensorStream,
-                                               [this](const sensor_msgs::msg::LaserScan& message) {
-                                                 auto scan = conversions::from_msg(message);
-                                                 if (!scan) return;
-                                                 const Time stamp = scan->stamp;
-                                                 scans_.push(std::move(*scan), "base_link", stamp);
-                                               });
+      },
+      runtime::Attention::kPatient);
+  node_.subscribe<sensor_msgs::msg::LaserScan>(
+      "scan", Qos::kSensorStream,
+      [this](const sensor_msgs::msg::LaserScan& message) {
+        auto scan = conversions::from_msg(message);
+        if (!scan) return;
+        const Time stamp = scan->stamp;
+        scans_.push(std::move(*scan), "base_link", stamp);
+      },
+      runtime::Attention::kPatient);
   node_.subscribe<nav_msgs::msg::OccupancyGrid>(
       "map", Qos::kStateLatched, [this](const nav_msgs::msg::OccupancyGrid& message) {
         if (const auto map = conversions::from_msg(message)) {

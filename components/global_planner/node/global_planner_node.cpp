@@ -81,13 +81,15 @@ GlobalPlannerNode::GlobalPlannerNode(runtime::Node& node, const Config& config)
                                                  const auto map = conversions::from_msg(message);
                                                  if (map) planner_.map().set_map(map->value);
                                                });
-  node.subscribe<sensor_msgs::msg::LaserScan>("scan", Qos::kSensorStream,
-                                              [this](const sensor_msgs::msg::LaserScan& message) {
-                                                auto scan = conversions::from_msg(message);
-                                                if (!scan) return;
-                                                const Time stamp = scan->stamp;
-                                                scans_.push(std::move(*scan), "base_link", stamp);
-                                              });
+  node.subscribe<sensor_msgs::msg::LaserScan>(
+      "scan", Qos::kSensorStream,
+      [this](const sensor_msgs::msg::LaserScan& message) {
+        auto scan = conversions::from_msg(message);
+        if (!scan) return;
+        const Time stamp = scan->stamp;
+        scans_.push(std::move(*scan), "base_link", stamp);
+      },
+      runtime::Attention::kPatient);
   node.subscribe<geometry_msgs::msg::PoseStamped>(
       "goal_pose", Qos::kEvent,
       [this](const geometry_msgs::msg::PoseStamped& message) { receive_goal(message); });

@@ -91,8 +91,9 @@ void LockstepCoordinator::route(std::size_t writer, const std::vector<LockstepMa
     if (mark.endpoint() >= member.readers_of.size()) continue;
     mark.member(static_cast<std::uint32_t>(writer));
     member.info.endpoints()[mark.endpoint()].sequence_number(mark.sequence_number());
-    for (const std::size_t reader : member.readers_of[mark.endpoint()]) {
-      raise(members_[reader].pending, mark);
+    for (const ReaderOf& reader : member.readers_of[mark.endpoint()]) {
+      raise(members_[reader.member].pending, mark);
+      if (!reader.patient) members_[reader.member].has_work = true;
     }
   }
 }
@@ -140,6 +141,7 @@ const LockstepRoster& LockstepCoordinator::begin_round(Time now) {
       pending.push_back(mark);
     }
     member.pending = std::move(pending);
+    member.has_work = !member.pending.empty();
     member.settled = member.info.name() == master_;
     member.working = false;
   }
@@ -154,18 +156,20 @@ const LockstepRoster& LockstepCoordinator::begin_round(Time now) {
 }
 
 void LockstepCoordinator::find_readers() {
-  const auto reads = [](const Member& member, const std::string& topic) {
-    return std::ranges::any_of(member.info.endpoints(), [&](const LockstepEndpoint& endpoint) {
-      return endpoint.kind() == EndpointKind::READER && endpoint.topic() == topic;
-    });
-  };
   for (Member& member : members_) {
     member.readers_of.assign(member.info.endpoints().size(), {});
     for (std::size_t i = 0; i < member.readers_of.size(); ++i) {
       const LockstepEndpoint& endpoint = member.info.endpoints()[i];
       if (endpoint.kind() != EndpointKind::WRITER) continue;
       for (std::size_t other = 0; other < members_.size(); ++other) {
-        if (reads(members_[other], endpoint.topic())) member.readers_of[i].push_back(other);
+        bool reads = false;
+        bool patient = true;
+        for (const LockstepEndpoint& reader : members_[other].info.endpoints()) {
+          if (reader.kind() != EndpointKind::READER || reader.topic() != endpoint.topic()) continue;
+          reads = true;
+          patient = patient && reader.patient();
+        }
+        if (reads) member.readers_of[i].push_back({other, patient});
       }
     }
   }
@@ -189,7 +193,10 @@ std::vector<LockstepCoordinator::Order> LockstepCoordinator::begin_tick(Time tim
   std::vector<Order> orders;
   for (Member& member : members_) {
     if (member.info.name() == master_) continue;
-    if (member.pending.empty() && member.next > time) continue;
+    // Without timers, patience would have no end.
+    const bool waits = member.next == Time::max() ? member.pending.empty() : !member.has_work;
+    if (waits && member.next > time) continue;
+    member.has_work = false;
     LockstepTick tick;
     tick.epoch(roster_.epoch());
     tick.round(roster_.round());

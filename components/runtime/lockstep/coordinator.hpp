@@ -64,14 +64,19 @@ class LockstepCoordinator {
   [[nodiscard]] std::vector<std::string> waits_for() const;
 
  private:
+  struct ReaderOf {
+    std::size_t member = 0;
+    bool patient = true;
+  };
   struct Member {
     coop_msgs::msg::LockstepMember info;
     bool settled = false;
     bool working = false;
-    Time next{};  ///< when its next timer is due
+    bool has_work = false;  ///< something pending cannot wait
+    Time next{};            ///< when its next timer is due
     std::vector<coop_msgs::msg::LockstepMark> pending;
     /// By endpoint: the members that read what it writes.
-    std::vector<std::vector<std::size_t>> readers_of;
+    std::vector<std::vector<ReaderOf>> readers_of;
   };
   [[nodiscard]] Member* find(const std::string& name);
   [[nodiscard]] bool is_working() const;

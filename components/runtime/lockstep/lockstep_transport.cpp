@@ -32,6 +32,7 @@ struct LockstepTransport::Shared {
   struct ReaderEntry {
     GatedReader* gated = nullptr;  ///< null for control readers and once it is gone
     Reader* reader = nullptr;
+    bool patient = false;
   };
   struct Endpoint {
     std::string topic;
@@ -93,6 +94,7 @@ class LockstepTransport::GatedReader : public Reader {
   bool take(Sample& sample) override { return gate_.next(sample); }
   int matched_writers() const override { return reader_->matched_writers(); }
   bool hears(const std::string& writer_id) const override { return reader_->hears(writer_id); }
+  void be_patient() override { shared_->endpoints[index_].reader.patient = true; }
 
   void collect() {
     Sample sample;
@@ -211,6 +213,7 @@ LockstepMember LockstepTransport::describe(std::uint64_t incarnation) {
     message.id(endpoint.id);
     message.kind(endpoint.is_writer ? EndpointKind::WRITER : EndpointKind::READER);
     message.latched(endpoint.latched);
+    message.patient(endpoint.reader.patient);
     if (endpoint.writer.writer != nullptr && !endpoint.is_control) {
       endpoint.writer.reported = endpoint.writer.writer->sequence();
       message.sequence_number(endpoint.writer.reported);
