@@ -150,4 +150,40 @@ Result<JointState> from_msg(const sensor_msgs::msg::JointState& message) {
                     message.effort()};
 }
 
+sensor_msgs::msg::CameraInfo to_msg(const Stamped<Intrinsics>& stamped) {
+  const Intrinsics& camera = stamped.value;
+  sensor_msgs::msg::CameraInfo message;
+  message.header(to_header(stamped.stamp, stamped.frame_id));
+  message.width(static_cast<std::uint32_t>(camera.width));
+  message.height(static_cast<std::uint32_t>(camera.height));
+  message.distortion_model("plumb_bob");
+  message.d().assign(5, 0.0);
+  message.k({camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0});
+  message.r({1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0});
+  message.p({camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0});
+  return message;
+}
+
+Result<Stamped<Intrinsics>> from_msg(const sensor_msgs::msg::CameraInfo& message) {
+  constexpr std::uint32_t kMaxEdge = 1U << 16;
+  const auto stamp = from_msg(message.header().stamp());
+  if (!stamp) return fail(stamp.error());
+  if (message.width() == 0 || message.height() == 0 || message.width() > kMaxEdge ||
+      message.height() > kMaxEdge) {
+    return fail("the camera's picture has no pixels, or absurdly many");
+  }
+  const auto& k = message.k();
+  if (!std::ranges::all_of(k, [](double value) { return std::isfinite(value); }) || k[0] <= 0.0 ||
+      k[4] <= 0.0) {
+    return fail("the camera's focal lengths are not positive, or a number is not finite");
+  }
+  if (std::ranges::any_of(message.d(), [](double value) { return value != 0.0; })) {
+    return fail("the camera distorts");
+  }
+  return Stamped<Intrinsics>{*stamp,
+                             message.header().frame_id(),
+                             {static_cast<int>(message.width()), static_cast<int>(message.height()),
+                              k[0], k[4], k[2], k[5]}};
+}
+
 }  // namespace coop::conversions

@@ -1,12 +1,15 @@
 #pragma once
+#include <sensor_msgs/msg/CameraInfo.h>
 #include <sensor_msgs/msg/Imu.h>
 #include <sensor_msgs/msg/JointState.h>
 #include <sensor_msgs/msg/LaserScan.h>
 
 #include "core/imu_reading.hpp"
+#include "core/intrinsics.hpp"
 #include "core/joint_state.hpp"
 #include "core/result.hpp"
 #include "core/scan.hpp"
+#include "core/stamped.hpp"
 
 namespace coop::conversions {
 
@@ -32,5 +35,11 @@ inline constexpr std::size_t kMaxJoints = 1'000;
 /// Refused: lists of unequal length (an empty one is allowed), empty or repeated names, numbers
 /// that are not finite.
 [[nodiscard]] Result<JointState> from_msg(const sensor_msgs::msg::JointState& message);
+
+/// A camera without distortion.
+[[nodiscard]] sensor_msgs::msg::CameraInfo to_msg(const Stamped<Intrinsics>& camera);
+/// Of a rectified or undistorted picture. Refused: no pixels, focal lengths that are not positive,
+/// numbers that are not finite, a distortion other than zero.
+[[nodiscard]] Result<Stamped<Intrinsics>> from_msg(const sensor_msgs::msg::CameraInfo& message);
 
 }  // namespace coop::conversions

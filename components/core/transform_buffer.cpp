@@ -160,4 +160,13 @@ void TransformBuffer::clear_history() {
   }
 }
 
+std::optional<StampedPose2> newest_pose(const TransformBuffer& transforms, std::string_view target,
+                                        std::string_view source, Time now, Duration max_age) {
+  const auto newest = transforms.newest_stamp(target, source);
+  if (!newest || (*newest < now && now - *newest > max_age)) return std::nullopt;
+  const auto pose = transforms.lookup(target, source, *newest);
+  if (!pose) return std::nullopt;
+  return StampedPose2{std::min(*newest, now), to_pose2(*pose)};
+}
+
 }  // namespace coop

@@ -1,5 +1,6 @@
 #pragma once
 #include <deque>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -70,5 +71,13 @@ class TransformBuffer {
   std::vector<Frame> frames_;
   std::unordered_map<std::string, int> index_;
 };
+
+/// Where `source` is now, as far as is known: its newest pose in `target`, on the floor. Nothing
+/// where it is unknown or older than `max_age` at `now`. The stamp is at most `now`, also where the
+/// transform holds longer.
+[[nodiscard]] std::optional<StampedPose2> newest_pose(const TransformBuffer& transforms,
+                                                      std::string_view target,
+                                                      std::string_view source, Time now,
+                                                      Duration max_age = Duration::max());
 
 }  // namespace coop

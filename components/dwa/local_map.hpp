@@ -6,6 +6,7 @@
 #include "core/costmap/costmap.hpp"
 #include "core/costmap/footprint.hpp"
 #include "core/costmap/obstacle_layer.hpp"
+#include "core/costmap/spot.hpp"
 #include "core/grid.hpp"
 #include "core/pose.hpp"
 #include "core/scan.hpp"
@@ -27,10 +28,6 @@ class LocalMap {
   /// Moves the square with the robot and adds the scan.
   void integrate(const LaserScan& scan, const ObstacleLayer::ScanPose& pose);
 
-  struct Spot {
-    Eigen::Vector2d center_in_map;
-    double radius = 0.0;  ///< m
-  };
   /// Round spots to keep clear of, although the laser does not see them.
   void set_spots(std::vector<Spot> spots) { spots_ = std::move(spots); }
 

@@ -54,13 +54,13 @@ void PlanningMap::set_spots(std::vector<Spot> spots) {
 void PlanningMap::mark_spot(const Spot& spot, std::span<std::uint8_t> cells) const {
   const GridGeometry& grid = map_.geometry;
   const Eigen::Vector2d reach(spot.radius, spot.radius);
-  const Cell low = grid.cell_of(spot.center - reach);
-  const Cell high = grid.cell_of(spot.center + reach);
+  const Cell low = grid.cell_of(spot.center_in_map - reach);
+  const Cell high = grid.cell_of(spot.center_in_map + reach);
   for (int y = low.y; y <= high.y; ++y) {
     for (int x = low.x; x <= high.x; ++x) {
       const Cell cell{x, y};
-      const bool inside = (grid.center_of(cell) - spot.center).norm() <= spot.radius;
-      if (grid.contains(cell) && (inside || cell == grid.cell_of(spot.center))) {
+      const bool inside = (grid.center_of(cell) - spot.center_in_map).norm() <= spot.radius;
+      if (grid.contains(cell) && (inside || cell == grid.cell_of(spot.center_in_map))) {
         cells[grid.index(cell)] = 1;
       }
     }
@@ -83,8 +83,8 @@ bool PlanningMap::update(Time now, const std::optional<Pose2>& robot_in_map) {
     costmap_.unknown()[i] = map_.cells[i] < 0 && seen[i] != ObstacleLayer::State::kClear ? 1 : 0;
   }
   for (const Spot& spot : spots_) {
-    const bool under_robot =
-        robot_in_map && footprint_.depth(robot_in_map->inverse() * spot.center) > -kUnderRobot;
+    const bool under_robot = robot_in_map && footprint_.depth(robot_in_map->inverse() *
+                                                              spot.center_in_map) > -kUnderRobot;
     if (!under_robot) mark_spot(spot, obstacles);
   }
   if (!map_changed_ &&

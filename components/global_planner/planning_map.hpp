@@ -10,6 +10,7 @@
 #include "core/costmap/costmap.hpp"
 #include "core/costmap/footprint.hpp"
 #include "core/costmap/obstacle_layer.hpp"
+#include "core/costmap/spot.hpp"
 #include "core/grid.hpp"
 #include "core/scan.hpp"
 #include "core/time.hpp"
@@ -45,11 +46,6 @@ class PlanningMap {
   /// A scan; ignored while there is no map.
   void integrate(const LaserScan& scan, const ObstacleLayer::ScanPose& pose);
 
-  struct Spot {
-    Eigen::Vector2d center;
-    double radius = 0.0;  ///< m
-    bool operator==(const Spot&) const = default;
-  };
   void set_spots(std::vector<Spot> spots);
 
   /// Brings costs and distances up to date. Whether anything changed. Spots under the robot, where

@@ -18,8 +18,8 @@ constexpr std::string_view kMaster = "master of time";
 constexpr auto kTopics = std::to_array<TopicInfo>({
     {"amcl_pose", "geometry_msgs/PoseWithCovarianceStamped", kLatched, 0, "amcl", "person",
      "pose in map with covariance, at every update of the filter"},
-    {"camera/camera_info", "sensor_msgs/CameraInfo", kStream, 5, "camera_driver", "person",
-     "calibration of the picture of the same stamp"},
+    {"camera/camera_info", "sensor_msgs/CameraInfo", kStream, 5, "camera_driver",
+     "sequencer, person", "calibration of the picture of the same stamp"},
     {"camera/depth", "sensor_msgs/Image", kStream, 5, "camera_driver", "person",
      "16UC1, mm along the optical axis, 0 where unknown"},
     {"camera/image", "sensor_msgs/Image", kStream, 5, "camera_driver", "person", "colour"},

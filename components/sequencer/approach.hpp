@@ -24,12 +24,17 @@ struct ApproachConfig {
 /// Cost of getting to a pose in metres, nothing where the robot cannot stand there or get there.
 using PoseCost = std::function<std::optional<double>(const Pose2&)>;
 
+inline constexpr double kAttemptsApart = 0.35;  ///< rad between the headings of two attempts
+
 /// Equation 4 where its pose can be taken; otherwise the pose on the same circle, heading to the
 /// egg, that is cheapest. Headings within `avoid_near` rad of one in `avoid` (tried in vain before)
 /// are passed over. Nothing where no pose can be taken.
-[[nodiscard]] std::optional<Pose2> choose_approach(
-    const Pose2& robot_in_map, const Eigen::Vector2d& egg_in_map, const ApproachConfig& config,
-    const PoseCost& cost, const std::vector<double>& avoid = {}, double avoid_near = 0.35);
+[[nodiscard]] std::optional<Pose2> choose_approach(const Pose2& robot_in_map,
+                                                   const Eigen::Vector2d& egg_in_map,
+                                                   const ApproachConfig& config,
+                                                   const PoseCost& cost,
+                                                   const std::vector<double>& avoid = {},
+                                                   double avoid_near = kAttemptsApart);
 
 /// Whether the arm reaches the egg from here.
 [[nodiscard]] bool is_within_reach(const Pose2& robot_in_map, const Eigen::Vector2d& egg_in_map,

@@ -25,8 +25,12 @@ void EggTracksConfig::describe(config::Fields& fields) {
                 {.help = "weaker detections are ignored", .min = 0, .max = 1});
   fields.number("forget_after", forget_after,
                 {.unit = "s", .help = "life of an unconfirmed track", .min = 0.1, .max = 3600});
-  fields.number("absorb_after_pick", absorb_after_pick,
-                {.unit = "s", .help = "echo of a picked egg", .min = 0, .max = 3600});
+  fields.integer(
+      "again_after", again_after,
+      {.help = "pictures in a row with an egg where one was picked, until it is a new one",
+       .min = 1,
+       .max = 1000});
+  fields.section("view", view);
 }
 
 double EggTrack::stddev() const {
@@ -44,12 +48,11 @@ void EggTracks::grow(Time now) {
   last_update_ = now;
 }
 
-EggTrack* EggTracks::match(const Sighting& sighting, const Eigen::Matrix2d& noise, Time now) {
+EggTrack* EggTracks::match(const Sighting& sighting, const Eigen::Matrix2d& noise) {
   EggTrack* best = nullptr;
   double best_distance = config_.gate;
   for (EggTrack& track : tracks_) {
-    const bool is_echo = now - track.picked_at < seconds(config_.absorb_after_pick);
-    if (track.picked && !is_echo) continue;
+    if (track.replaced) continue;
     const Eigen::Vector2d gap = sighting.egg_in_map - track.egg_in_map;
     if (gap.norm() > config_.max_distance) continue;
     const Eigen::Matrix2d total = track.covariance + noise;
@@ -62,32 +65,61 @@ EggTrack* EggTracks::match(const Sighting& sighting, const Eigen::Matrix2d& nois
   return best;
 }
 
-void EggTracks::update(const std::vector<Sighting>& sightings, Time now) {
-  grow(now);
-  for (const Sighting& sighting : sightings) {
-    if (sighting.score < config_.min_score || !sighting.egg_in_map.allFinite()) continue;
-    const Eigen::Matrix2d noise =
-        sighting.covariance + config_.min_stddev * config_.min_stddev * Eigen::Matrix2d::Identity();
-    EggTrack* track = match(sighting, noise, now);
-    if (track == nullptr) {
-      EggTrack fresh;
-      fresh.id = "egg" + std::to_string(next_id_++);
-      fresh.egg_in_map = sighting.egg_in_map;
-      fresh.covariance = noise;
-      tracks_.push_back(fresh);
-      track = &tracks_.back();
-    } else if (!track->picked) {
-      const Eigen::Matrix2d gain = track->covariance * (track->covariance + noise).inverse();
-      track->egg_in_map += gain * (sighting.egg_in_map - track->egg_in_map);
-      track->covariance = (Eigen::Matrix2d::Identity() - gain) * track->covariance;
+EggTrack& EggTracks::add(const Sighting& sighting, const Eigen::Matrix2d& noise) {
+  EggTrack track;
+  track.id = "egg" + std::to_string(next_id_++);
+  track.egg_in_map = sighting.egg_in_map;
+  track.covariance = noise;
+  return tracks_.emplace_back(std::move(track));
+}
+
+void EggTracks::take(const Sighting& sighting, Time stamp) {
+  if (sighting.score < config_.min_score || !sighting.egg_in_map.allFinite()) return;
+  const Eigen::Matrix2d noise =
+      sighting.covariance + config_.min_stddev * config_.min_stddev * Eigen::Matrix2d::Identity();
+  EggTrack* track = match(sighting, noise);
+  if (track == nullptr) {
+    track = &add(sighting, noise);
+  } else if (track->picked) {
+    if (stamp <= track->picked_at) return;  // its echo
+    if (track->seen_in_row + 1 >= config_.again_after) {
+      track->replaced = true;
+      track = &add(sighting, noise);
+      track->confirmed = true;
     }
-    track->sightings += 1;
-    track->last_seen = now;
-    track->confirmed = track->confirmed || track->sightings >= config_.confirm_after;
+  } else {
+    const Eigen::Matrix2d gain = track->covariance * (track->covariance + noise).inverse();
+    track->egg_in_map += gain * (sighting.egg_in_map - track->egg_in_map);
+    track->covariance = (Eigen::Matrix2d::Identity() - gain) * track->covariance;
   }
+  track->sightings += 1;
+  track->last_seen = stamp;
+  track->confirmed = track->confirmed || track->sightings >= config_.confirm_after;
+}
+
+/// Pictures in a row with each egg, and without it.
+void EggTracks::count(const Picture& picture) {
+  for (EggTrack& track : tracks_) {
+    if (track.last_seen == picture.stamp) {
+      track.seen_in_row += 1;
+      track.unseen_in_row = 0;
+    } else if (picture.view &&
+               picture.view->shows(track.egg_in_map, track.stddev(), config_.view)) {
+      track.unseen_in_row += 1;
+      track.seen_in_row = 0;
+    } else if (picture.stamp - track.last_seen > seconds(config_.forget_after)) {
+      track.seen_in_row = 0;
+    }
+  }
+}
+
+void EggTracks::update(const Picture& picture) {
+  grow(picture.stamp);
+  for (const Sighting& sighting : picture.sightings) take(sighting, picture.stamp);
+  count(picture);
   merge_close();
   std::erase_if(tracks_, [&](const EggTrack& track) {
-    return !track.confirmed && now - track.last_seen > seconds(config_.forget_after);
+    return !track.confirmed && picture.stamp - track.last_seen > seconds(config_.forget_after);
   });
 }
 
@@ -111,6 +143,8 @@ void EggTracks::mark_picked(const std::string& id, Time now) {
     if (track.id != id) continue;
     track.picked = true;
     track.picked_at = now;
+    track.seen_in_row = 0;
+    track.unseen_in_row = 0;
   }
 }
 

@@ -36,6 +36,7 @@ json to_json(const EggTask& egg) {
           {"at", {egg.egg_in_map.x(), egg.egg_in_map.y()}},
           {"phase", static_cast<int>(egg.phase)},
           {"attempts", egg.attempts},
+          {"unseen", egg.unseen},
           {"tried", egg.tried_headings},
           {"reason", egg.reason}};
 }
@@ -46,6 +47,7 @@ EggTask egg_from(const json& value) {
   egg.egg_in_map = {value.at("at").at(0).get<double>(), value.at("at").at(1).get<double>()};
   egg.phase = static_cast<EggPhase>(value.at("phase").get<int>());
   egg.attempts = value.at("attempts");
+  egg.unseen = value.at("unseen");
   egg.tried_headings = value.at("tried").get<std::vector<double>>();
   egg.reason = value.at("reason");
   return egg;
@@ -73,6 +75,7 @@ json to_json(const MissionState& state) {
           {"tour_cost_alternative", state.tour_cost_alternative},
           {"current_egg", state.current_egg},
           {"pick_id", state.pick_id},
+          {"goal_id", state.goal_id},
           {"has_home", state.has_home},
           {"home", to_json(state.home_in_map)}};
 }
@@ -96,6 +99,7 @@ MissionState state_from(const json& value) {
   state.tour_cost_alternative = value.at("tour_cost_alternative");
   state.current_egg = value.at("current_egg");
   state.pick_id = value.at("pick_id");
+  state.goal_id = value.at("goal_id");
   state.has_home = value.at("has_home");
   state.home_in_map = pose_from(value.at("home"));
   return state;

@@ -17,7 +17,9 @@ void Mission::enter(MissionPhase phase, const std::string& detail) {
 
 void Mission::start(MissionKind kind, const std::string& mission_id,
                     std::vector<Waypoint> waypoints) {
+  const std::string goal_in_force = std::exchange(state_.goal_id, {});
   state_ = MissionState{};
+  state_.goal_id = goal_in_force;
   state_.mission_id = mission_id;
   state_.kind = kind;
   state_.waypoints = std::move(waypoints);
@@ -49,6 +51,7 @@ void Mission::abort(const std::string& reason) {
 
 MissionActions Mission::step(const MissionSnapshot& snapshot, const MapQueries& queries, Time now) {
   actions_ = {};
+  note_end_of_goal(snapshot);
   if (state_.is_active() && snapshot.robot_in_map) {
     if (!state_.has_home) {
       state_.has_home = true;
@@ -61,7 +64,7 @@ MissionActions Mission::step(const MissionSnapshot& snapshot, const MapQueries& 
         step_waypoints(snapshot, now);
         break;
       case MissionPhase::kOrdering:
-        step_ordering(snapshot, queries);
+        step_ordering(snapshot, queries, now);
         break;
       case MissionPhase::kDriving:
         step_approach(snapshot, queries, now);
@@ -72,42 +75,40 @@ MissionActions Mission::step(const MissionSnapshot& snapshot, const MapQueries& 
       case MissionPhase::kReturning:
         step_returning(snapshot, now);
         break;
-      case MissionPhase::kPaused:
-        stand_still(snapshot, now);
-        break;
       default:
         break;
     }
   }
+  if (!state_.is_active() || state_.phase == MissionPhase::kPaused) take_goal_back(now);
   actions_.state_changed = std::exchange(changed_, false);
   return std::exchange(actions_, {});
-}
-
-/// Confirmed tracks become eggs of the mission; positions follow the tracks until the pick.
-void Mission::adopt_eggs(const MissionSnapshot& snapshot) {
-  if (state_.kind != MissionKind::kCollect || snapshot.tracks == nullptr) return;
-  for (const EggTrack& track : *snapshot.tracks) {
-    if (!track.confirmed || track.picked) continue;
-    EggTask* egg = state_.find_egg(track.id);
-    if (egg == nullptr) {
-      state_.eggs.push_back({.id = track.id,
-                             .egg_in_map = track.egg_in_map,
-                             .phase = EggPhase::kSeen,
-                             .attempts = 0,
-                             .tried_headings = {},
-                             .reason = {}});
-      changed_ = true;
-      // Seen on the way to another: the order is made anew when that one is done.
-    } else if (egg->phase != EggPhase::kPicking && egg->phase != EggPhase::kPicked) {
-      egg->egg_in_map = track.egg_in_map;
-    }
-  }
 }
 
 void Mission::drive_to(const Pose2& pose, Time now) {
   // The shell stamps the goal with this time; its digits are the goal's name on all topics.
   drive_ = Drive{{std::to_string(to_nanoseconds(now)), pose}, now, now};
   actions_.goal = drive_->goal;
+  state_.goal_id = drive_->goal.goal_id;
+  taken_back_ = Time{};
+  changed_ = true;
+}
+
+void Mission::note_end_of_goal(const MissionSnapshot& snapshot) {
+  if (state_.goal_id.empty() || !snapshot.navigation ||
+      snapshot.navigation->goal_id != state_.goal_id ||
+      snapshot.navigation->state == NavigationReport::State::kUnderWay) {
+    return;
+  }
+  state_.goal_id.clear();
+  changed_ = true;
+}
+
+/// The robot is to stand. Told again until a navigator answers: the planner may have been dead.
+void Mission::take_goal_back(Time now) {
+  drive_.reset();
+  if (state_.goal_id.empty() || now - taken_back_ < seconds(config_.goal_repeat)) return;
+  taken_back_ = now;
+  actions_.take_back = state_.goal_id;
 }
 
 void Mission::repeat_goal(Time now) {
@@ -131,7 +132,7 @@ NavigationReport Mission::drive_result(const MissionSnapshot& snapshot, Time now
 
 void Mission::step_waypoints(const MissionSnapshot& snapshot, Time now) {
   const bool enough = state_.kind == MissionKind::kCollect && config_.expected_eggs > 0 &&
-                      static_cast<int>(state_.eggs.size()) >= config_.expected_eggs;
+                      known_eggs() >= config_.expected_eggs;
   if (enough || state_.next_waypoint >= state_.waypoints.size()) {
     end_search_or_mission();
     return;
@@ -165,15 +166,19 @@ void Mission::end_search_or_mission() {
   drive_.reset();
   state_.searches += 1;
   if (state_.kind == MissionKind::kCollect) {
-    enter(MissionPhase::kOrdering, fmt::format("{} eggs known", state_.eggs.size()));
+    enter(MissionPhase::kOrdering, fmt::format("{} eggs known", known_eggs()));
     return;
   }
   finish();
 }
 
+int Mission::known_eggs() const {
+  return static_cast<int>(state_.eggs.size()) - state_.count(EggPhase::kMissing);
+}
+
 bool Mission::wants_another_search() const {
-  return static_cast<int>(state_.eggs.size()) < config_.expected_eggs &&
-         state_.searches < config_.max_searches && !state_.waypoints.empty();
+  return known_eggs() < config_.expected_eggs && state_.searches < config_.max_searches &&
+         !state_.waypoints.empty();
 }
 
 /// The other way round, so that the camera sees what it had its back to.
@@ -184,7 +189,7 @@ void Mission::search_again() {
   }
   state_.next_waypoint = 0;
   changed_ = true;
-  enter(MissionPhase::kSearching, fmt::format("{} of {} eggs known, search {}", state_.eggs.size(),
+  enter(MissionPhase::kSearching, fmt::format("{} of {} eggs known, search {}", known_eggs(),
                                               config_.expected_eggs, state_.searches + 1));
 }
 
@@ -194,168 +199,14 @@ void Mission::finish() {
   if (state_.kind == MissionKind::kCollect) {
     detail =
         fmt::format("{} of {} eggs picked", state_.count(EggPhase::kPicked), state_.eggs.size());
+    const int missing = state_.count(EggPhase::kMissing);
+    if (missing > 0) detail += fmt::format(", {} missing", missing);
   } else {
     detail = fmt::format("{} of {} waypoints reached",
                          state_.waypoints.size() - state_.missed_waypoints.size(),
                          state_.waypoints.size());
   }
   enter(MissionPhase::kDone, detail);
-}
-
-void Mission::step_ordering(const MissionSnapshot& snapshot, const MapQueries& queries) {
-  std::vector<const EggTask*> open;
-  for (const EggTask& egg : state_.eggs) {
-    if (egg.phase != EggPhase::kPicked && egg.phase != EggPhase::kFailed) open.push_back(&egg);
-  }
-  state_.current_egg.clear();
-  if (open.empty()) {
-    if (wants_another_search()) {
-      search_again();
-    } else if (config_.return_home) {
-      enter(MissionPhase::kReturning, "home");
-    } else {
-      finish();
-    }
-    return;
-  }
-  const OrderedEggs ordered = queries.order(*snapshot.robot_in_map, open);
-  if (ordered.order.empty()) return;  // no map yet
-  for (const std::string& id : ordered.order) state_.find_egg(id)->phase = EggPhase::kQueued;
-  // What was picked stays in front: the order tells the whole tour.
-  std::erase_if(state_.order, [this](const std::string& id) {
-    const EggTask* egg = state_.find_egg(id);
-    return egg == nullptr || egg->phase != EggPhase::kPicked;
-  });
-  if (state_.order.empty()) {
-    state_.tour_cost = ordered.cost;
-    state_.tour_cost_alternative = ordered.alternative_cost;
-  }
-  state_.order.insert(state_.order.end(), ordered.order.begin(), ordered.order.end());
-  state_.current_egg = ordered.order.front();
-  arrived_.reset();
-  changed_ = true;
-  enter(MissionPhase::kDriving, "to " + state_.current_egg);
-}
-
-void Mission::begin_approach(const MissionSnapshot& snapshot, const MapQueries& queries, Time now) {
-  EggTask& egg = *state_.find_egg(state_.current_egg);
-  auto pose = choose_approach(*snapshot.robot_in_map, egg.egg_in_map, approach_, queries.pose_cost,
-                              egg.tried_headings);
-  if (!pose && !egg.tried_headings.empty()) {
-    // Every other side is taken: the ones that failed before are better than none.
-    pose = choose_approach(*snapshot.robot_in_map, egg.egg_in_map, approach_, queries.pose_cost);
-  }
-  egg.attempts += 1;
-  changed_ = true;
-  if (!pose) {
-    attempt_failed(egg, "no free pose around the egg");
-    return;
-  }
-  egg.phase = EggPhase::kApproaching;
-  arrived_.reset();
-  drive_to(*pose, now);
-}
-
-/// Equation 4 again while the robot comes nearer and sees the egg better.
-void Mission::refresh_goal(const MissionSnapshot& snapshot, const EggTask& egg,
-                           const MapQueries& queries) {
-  const Pose2& old = drive_->goal.pose_in_map;
-  if (distance(*snapshot.robot_in_map, old) < config_.refresh_until) return;
-  const Pose2 moved{egg.egg_in_map.x() - approach_.distance * std::cos(old.yaw),
-                    egg.egg_in_map.y() - approach_.distance * std::sin(old.yaw), old.yaw};
-  if (distance(moved, old) < config_.refresh_distance || !queries.pose_cost(moved)) return;
-  drive_->goal.pose_in_map = moved;
-  actions_.goal = drive_->goal;
-}
-
-void Mission::step_approach(const MissionSnapshot& snapshot, const MapQueries& queries, Time now) {
-  EggTask* egg = state_.find_egg(state_.current_egg);
-  if (egg == nullptr) {
-    enter(MissionPhase::kOrdering, "order lost");
-    return;
-  }
-  if (!drive_) {
-    begin_approach(snapshot, queries, now);
-    return;
-  }
-  if (arrived_) {
-    step_arrival(snapshot, now);
-    return;
-  }
-  const NavigationReport result = drive_result(snapshot, now);
-  switch (result.state) {
-    case NavigationReport::State::kUnderWay:
-      refresh_goal(snapshot, *egg, queries);
-      if (!actions_.goal) repeat_goal(now);
-      break;
-    case NavigationReport::State::kArrived:
-      arrived_ = now;
-      break;
-    case NavigationReport::State::kFailed:
-      attempt_failed(*egg, result.reason);
-      break;
-  }
-}
-
-void Mission::step_arrival(const MissionSnapshot& snapshot, Time now) {
-  if (now - *arrived_ < seconds(config_.settle_time)) return;
-  EggTask& egg = *state_.find_egg(state_.current_egg);
-  if (!is_within_reach(*snapshot.robot_in_map, egg.egg_in_map, approach_)) {
-    const Eigen::Vector2d egg_in_base = snapshot.robot_in_map->inverse() * egg.egg_in_map;
-    attempt_failed(egg, fmt::format("egg at ({:.2f}, {:.2f}) m on arrival, out of reach",
-                                    egg_in_base.x(), egg_in_base.y()));
-    return;
-  }
-  drive_.reset();
-  arrived_.reset();
-  egg.phase = EggPhase::kPicking;
-  state_.pick_id = fmt::format("{}/{}/{}", state_.mission_id, egg.id, egg.attempts);
-  changed_ = true;
-  enter(MissionPhase::kPicking, egg.id);
-}
-
-void Mission::step_picking(const MissionSnapshot& snapshot, Time now) {
-  EggTask* egg = state_.find_egg(state_.current_egg);
-  if (egg == nullptr || state_.pick_id.empty()) {
-    enter(MissionPhase::kOrdering, "pick lost");
-    return;
-  }
-  if (!pick_begun_) {
-    pick_begun_ = now;
-    pick_told_ = Time{};
-  }
-  const bool answered =
-      snapshot.pick && snapshot.pick->pick_id == state_.pick_id && snapshot.pick->is_final;
-  if (answered && snapshot.pick->picked) {
-    egg->phase = EggPhase::kPicked;
-    egg->reason.clear();
-    actions_.picked_egg = egg->id;
-    state_.pick_id.clear();
-    pick_begun_.reset();
-    changed_ = true;
-    enter(MissionPhase::kOrdering, egg->id + " picked");
-    return;
-  }
-  if (answered || now - *pick_begun_ > seconds(config_.pick_timeout)) {
-    state_.pick_id.clear();
-    pick_begun_.reset();
-    attempt_failed(*egg, answered ? snapshot.pick->reason : "the arm does not answer");
-    return;
-  }
-  if (now - pick_told_ >= seconds(config_.pick_repeat)) {
-    pick_told_ = now;
-    actions_.pick = PickOrder{state_.pick_id, egg->id, egg->egg_in_map};
-  }
-}
-
-void Mission::attempt_failed(EggTask& egg, const std::string& reason) {
-  if (drive_) egg.tried_headings.push_back(drive_->goal.pose_in_map.yaw);
-  drive_.reset();
-  arrived_.reset();
-  egg.reason = reason;
-  egg.phase = egg.attempts >= config_.max_attempts ? EggPhase::kFailed : EggPhase::kQueued;
-  changed_ = true;
-  enter(MissionPhase::kOrdering, egg.id + ": " + reason);
 }
 
 void Mission::step_returning(const MissionSnapshot& snapshot, Time now) {
@@ -372,11 +223,6 @@ void Mission::step_returning(const MissionSnapshot& snapshot, Time now) {
     state_.missed_waypoints.push_back("home: " + result.reason);
   }
   finish();
-}
-
-/// The goal of a pause is where the robot is: the navigators stop there.
-void Mission::stand_still(const MissionSnapshot& snapshot, Time now) {
-  if (!drive_) drive_to(*snapshot.robot_in_map, now);
 }
 
 }  // namespace coop::sequencer

@@ -24,6 +24,13 @@ struct MissionConfig {
   double refresh_until = 0.5;      ///< m from the goal; nearer it stays as it is
   double waypoint_radius = 0.6;    ///< m, a waypoint this near is reached: the robot drives on
   double settle_time = 0.5;        ///< s of standing still before reach is judged
+  double look_from = 0.6;          ///< m from the approach pose; from there the egg must be seen
+  int unseen_after = 6;            ///< pictures in a row without the egg: it is not there
+  double look_time = 2.0;          ///< s of standing before the egg until the pictures must agree
+  int max_looks = 2;               ///< approaches without a sight of the egg, then it is missing
+  double look_apart = 1.0;         ///< rad between the headings of two looks
+  int seen_again_after = 3;        ///< pictures in a row with a missing egg: it is there again
+  double last_look = 1.5;          ///< s for what the arm lost to be seen, before the mission ends
   bool return_home = false;        ///< drive back to where the mission began
 
   void describe(config::Fields& fields);
@@ -81,14 +88,16 @@ struct PickOrder {
 struct MissionActions {
   bool state_changed = false;  ///< write the state to the journal before anything else is done
   std::optional<GoalOrder> goal;
+  std::optional<std::string> take_back;  ///< id of a goal: the navigators are to stop
   std::optional<PickOrder> pick;
   std::optional<std::string> picked_egg;  ///< tell the tracks
 };
 
 /// The mission as a pure state machine: no clock, no topics. Goals and picks are told again until
-/// they are answered, so that the death of any other process only delays. A state restored from the
-/// journal goes on where it was: an egg being picked is asked for again under the same pick id,
-/// which the arm answers once and for all.
+/// they are answered, so that the death of any other process only delays. Where the robot is to
+/// stand (paused, aborted, at the end), the goal told last is taken back until the navigators
+/// answer. A state restored from the journal goes on where it was: an egg being picked is asked for
+/// again under the same pick id, which the arm answers once and for all.
 class Mission {
  public:
   Mission(const MissionConfig& config, const ApproachConfig& approach)
@@ -115,21 +124,27 @@ class Mission {
 
   void adopt_eggs(const MissionSnapshot& snapshot);
   void step_waypoints(const MissionSnapshot& snapshot, Time now);
-  void step_ordering(const MissionSnapshot& snapshot, const MapQueries& queries);
+  void step_ordering(const MissionSnapshot& snapshot, const MapQueries& queries, Time now);
+  void end_or_search_again(Time now);
   void step_approach(const MissionSnapshot& snapshot, const MapQueries& queries, Time now);
   void step_arrival(const MissionSnapshot& snapshot, Time now);
   void step_picking(const MissionSnapshot& snapshot, Time now);
   void step_returning(const MissionSnapshot& snapshot, Time now);
-  void stand_still(const MissionSnapshot& snapshot, Time now);
   void begin_approach(const MissionSnapshot& snapshot, const MapQueries& queries, Time now);
   void refresh_goal(const MissionSnapshot& snapshot, const EggTask& egg, const MapQueries& queries);
+  /// Pictures in a row, taken from near the approach pose, that lack the egg.
+  [[nodiscard]] int pictures_without(const MissionSnapshot& snapshot, const EggTask& egg);
   void attempt_failed(EggTask& egg, const std::string& reason);
+  void egg_not_seen(EggTask& egg);
   void enter(MissionPhase phase, const std::string& detail);
   void drive_to(const Pose2& pose, Time now);
   void repeat_goal(Time now);
+  void note_end_of_goal(const MissionSnapshot& snapshot);
+  void take_goal_back(Time now);
   /// The navigators' answer to the present goal, a time-out included.
   [[nodiscard]] NavigationReport drive_result(const MissionSnapshot& snapshot, Time now) const;
   void end_search_or_mission();
+  [[nodiscard]] int known_eggs() const;  ///< those that turned out missing left out
   [[nodiscard]] bool wants_another_search() const;
   void search_again();
   void finish();
@@ -140,6 +155,9 @@ class Mission {
   MissionActions actions_;
   std::optional<Drive> drive_;
   std::optional<Time> arrived_;
+  int unseen_before_ = 0;  ///< pictures in a row without the egg, of before this look
+  std::optional<Time> last_look_;
+  Time taken_back_{};  ///< when the goal was taken back last
   std::optional<Time> pick_begun_;
   Time pick_told_{};
   bool changed_ = false;

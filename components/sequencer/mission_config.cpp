@@ -25,6 +25,20 @@ void MissionConfig::describe(config::Fields& fields) {
                 {.unit = "m", .help = "a waypoint this near is reached", .min = 0, .max = 10});
   fields.number("settle_time", settle_time,
                 {.unit = "s", .help = "standing still before reach is judged", .min = 0});
+  fields.number("look_from", look_from,
+                {.unit = "m", .help = "from the approach pose; the egg must be seen", .min = 0});
+  fields.integer("unseen_after", unseen_after,
+                 {.help = "pictures in a row without the egg: it is not there", .min = 1});
+  fields.number("look_time", look_time,
+                {.unit = "s", .help = "for the pictures to agree on arrival", .min = 0, .max = 60});
+  fields.integer("max_looks", max_looks,
+                 {.help = "approaches without a sight of the egg", .min = 1, .max = 100});
+  fields.number("look_apart", look_apart,
+                {.unit = "rad", .help = "between the headings of looks", .min = 0, .max = 3});
+  fields.integer("seen_again_after", seen_again_after,
+                 {.help = "pictures in a row with a missing egg", .min = 1, .max = 1000});
+  fields.number("last_look", last_look,
+                {.unit = "s", .help = "for what the arm lost, at the end", .min = 0, .max = 60});
   fields.flag("return_home", return_home, {.help = "drive back to where the mission began"});
 }
 

@@ -20,7 +20,16 @@ enum class MissionPhase : std::uint8_t {
   kFailed,
   kPaused
 };
-enum class EggPhase : std::uint8_t { kSeen, kQueued, kApproaching, kPicking, kPicked, kFailed };
+/// Numbers as in coop_msgs/EggStatus.
+enum class EggPhase : std::uint8_t {
+  kSeen,
+  kQueued,
+  kApproaching,
+  kPicking,
+  kPicked,
+  kFailed,
+  kMissing
+};
 
 [[nodiscard]] std::string_view to_string(MissionPhase phase);
 
@@ -34,7 +43,8 @@ struct EggTask {
   std::string id;
   Eigen::Vector2d egg_in_map{0, 0};
   EggPhase phase = EggPhase::kSeen;
-  int attempts = 0;                    ///< approaches begun
+  int attempts = 0;  ///< approaches begun
+  int unseen = 0;    ///< of these, on which it was not to be seen, since last seen
   std::vector<double> tried_headings;  ///< rad, of approaches that came to nothing
   std::string reason;                  ///< of the last failure
 };
@@ -56,6 +66,7 @@ struct MissionState {
   double tour_cost_alternative = 0.0;  ///< by the method not chosen
   std::string current_egg;             ///< empty: none
   std::string pick_id;                 ///< of the pick under way, empty: none
+  std::string goal_id;                 ///< told to the navigators and not at its end, empty: none
   bool has_home = false;
   Pose2 home_in_map;  ///< where the mission began
 

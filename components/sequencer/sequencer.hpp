@@ -36,7 +36,7 @@ class Sequencer {
  public:
   Sequencer(const SequencerConfig& config, const Footprint& footprint, RandomStream random);
 
-  void see(const std::vector<Sighting>& sightings, Time now) { tracks_.update(sightings, now); }
+  void see(const Picture& picture) { tracks_.update(picture); }
   void set_costmap(const OccupancyGrid& costmap) { costs_.set_costmap(costmap); }
   [[nodiscard]] bool has_costmap() const { return costs_.has_costmap(); }
 

@@ -2,11 +2,11 @@
 
 #include "conversions/geometry.hpp"
 #include "conversions/navigation.hpp"
-#include "conversions/sensors.hpp"
 #include "coop_msgs/msg/GlobalLocalization.h"
 #include "core/atomic_file.hpp"
 #include "core/config/error.hpp"
 #include "core/map/map_file.hpp"
+#include "runtime/scan_queue.hpp"
 
 namespace coop::amcl {
 
@@ -89,14 +89,12 @@ AmclNode::AmclNode(runtime::Node& node, const Config& config, const OccupancyGri
 }
 
 void AmclNode::subscribe() {
-  node_.subscribe<sensor_msgs::msg::LaserScan>("scan", Qos::kSensorStream,
-                                               [this](const sensor_msgs::msg::LaserScan& message) {
-                                                 auto scan = conversions::from_msg(message);
-                                                 if (!scan) return;
-                                                 const Time stamp = scan->stamp;
-                                                 scans_.push(std::move(*scan), "base_link", stamp);
-                                                 process_scans();
-                                               });
+  node_.subscribe<sensor_msgs::msg::LaserScan>(
+      "scan", Qos::kSensorStream,
+      [this, put = runtime::put_into(scans_)](const sensor_msgs::msg::LaserScan& message) {
+        put(message);
+        process_scans();
+      });
   node_.subscribe<PoseWithCovarianceStamped>(
       "initialpose", Qos::kEvent, [this](const PoseWithCovarianceStamped& message) {
         const auto pose = conversions::from_msg(message);

@@ -4,7 +4,7 @@
 
 #include "conversions/detections.hpp"
 #include "conversions/image.hpp"
-#include "conversions/time.hpp"
+#include "conversions/sensors.hpp"
 #include "core/robot/robot_model.hpp"
 
 namespace coop::camera_driver {
@@ -13,19 +13,6 @@ namespace {
 using runtime::Qos;
 
 const std::string kFrameId{robot::kCameraOpticalFrame};
-
-sensor_msgs::msg::CameraInfo to_info(const Intrinsics& camera, Time stamp) {
-  sensor_msgs::msg::CameraInfo info;
-  info.header(conversions::to_header(stamp, kFrameId));
-  info.width(static_cast<std::uint32_t>(camera.width));
-  info.height(static_cast<std::uint32_t>(camera.height));
-  info.distortion_model("plumb_bob");
-  info.d().assign(5, 0.0);
-  info.k({camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0});
-  info.r({1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0});
-  info.p({camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0});
-  return info;
-}
 
 }  // namespace
 
@@ -45,7 +32,9 @@ void CameraTopics::publish(const Frame& frame, const Intrinsics& intrinsics) {
     const auto message = conversions::to_msg({frame.stamp, kFrameId, "16UC1", frame.depth});
     if (message) depth_.publish(*message);
   }
-  if (info_.has_subscribers()) info_.publish(to_info(intrinsics, frame.stamp));
+  if (info_.has_subscribers()) {
+    info_.publish(conversions::to_msg(Stamped<Intrinsics>{frame.stamp, kFrameId, intrinsics}));
+  }
 }
 
 void CameraTopics::publish(Time stamp, std::vector<Detection> eggs) {

@@ -144,4 +144,14 @@ void ObstacleLayer::expire(Time now) {
   }
 }
 
+std::optional<ObstacleLayer::ScanPose> scan_pose(const TransformBuffer& transforms,
+                                                 std::string_view grid_frame, const LaserScan& scan,
+                                                 const Pose3& base_in_grid) {
+  const auto laser = transforms.lookup("base_link", scan.frame_id, scan.stamp);
+  if (!laser) return std::nullopt;
+  const auto last = transforms.lookup(grid_frame, "base_link", scan.stamp + scan.sweep_duration());
+  const Pose2 first = to_pose2(base_in_grid);
+  return ObstacleLayer::ScanPose{first, last ? to_pose2(*last) : first, to_pose2(*laser)};
+}
+
 }  // namespace coop

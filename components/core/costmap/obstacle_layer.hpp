@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/config/fields.hpp"
@@ -9,6 +11,7 @@
 #include "core/pose.hpp"
 #include "core/scan.hpp"
 #include "core/time.hpp"
+#include "core/transform_buffer.hpp"
 
 namespace coop {
 
@@ -68,5 +71,13 @@ class ObstacleLayer {
   Time epoch_{};
   std::int32_t clear_before_ = 0;  ///< marks after this withstand clearing, ms
 };
+
+/// The robot during a scan whose first beam it met at `base_in_grid`, a pose in `grid_frame`. Where
+/// the pose at the last beam is not known yet, that at the first stands for it; nothing where the
+/// laser's mount is unknown.
+[[nodiscard]] std::optional<ObstacleLayer::ScanPose> scan_pose(const TransformBuffer& transforms,
+                                                               std::string_view grid_frame,
+                                                               const LaserScan& scan,
+                                                               const Pose3& base_in_grid);
 
 }  // namespace coop

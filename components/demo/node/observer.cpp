@@ -27,8 +27,8 @@ const char* mission_state_name(std::uint8_t state) {
 }
 
 const char* egg_state_name(std::uint8_t state) {
-  static constexpr std::array kNames{"seen",    "queued", "approaching",
-                                     "picking", "picked", "failed"};
+  static constexpr std::array kNames{"seen",   "queued", "approaching", "picking",
+                                     "picked", "failed", "missing"};
   return state < kNames.size() ? kNames.at(state) : "unknown";
 }
 

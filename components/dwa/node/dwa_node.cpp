@@ -1,11 +1,12 @@
 #include "dwa/node/dwa_node.hpp"
 
 #include "conversions/geometry.hpp"
+#include "conversions/mission.hpp"
 #include "conversions/navigation.hpp"
-#include "conversions/sensors.hpp"
 #include "conversions/time.hpp"
 #include "coop_msgs/msg/EmergencyStop.h"
 #include "coop_msgs/msg/MissionStatus.h"
+#include "runtime/scan_queue.hpp"
 
 namespace coop::dwa {
 
@@ -96,14 +97,7 @@ void DwaNode::subscribe() {
       },
       runtime::Attention::kPatient);
   node_.subscribe<sensor_msgs::msg::LaserScan>(
-      "scan", Qos::kSensorStream,
-      [this](const sensor_msgs::msg::LaserScan& message) {
-        auto scan = conversions::from_msg(message);
-        if (!scan) return;
-        const Time stamp = scan->stamp;
-        scans_.push(std::move(*scan), "base_link", stamp);
-      },
-      runtime::Attention::kPatient);
+      "scan", Qos::kSensorStream, runtime::put_into(scans_), runtime::Attention::kPatient);
   node_.subscribe<nav_msgs::msg::OccupancyGrid>(
       "map", Qos::kStateLatched, [this](const nav_msgs::msg::OccupancyGrid& message) {
         if (const auto map = conversions::from_msg(message)) {
@@ -119,12 +113,7 @@ void DwaNode::subscribe() {
       });
   node_.subscribe<coop_msgs::msg::MissionStatus>(
       "mission_status", Qos::kStateLatched, [this](const coop_msgs::msg::MissionStatus& message) {
-        std::vector<LocalMap::Spot> spots;
-        for (const auto& egg : message.eggs()) {
-          if (egg.state() == coop_msgs::msg::EggStatus_Constants::PICKED) continue;
-          spots.push_back({{egg.position().x(), egg.position().y()}, config_.egg_radius});
-        }
-        dwa_.local_map().set_spots(std::move(spots));
+        dwa_.local_map().set_spots(conversions::uncollected_eggs(message, config_.egg_radius));
       });
 }
 
@@ -138,28 +127,19 @@ void DwaNode::receive_plan(const nav_msgs::msg::Path& message) {
 }
 
 void DwaNode::integrate_scans() {
-  scans_.process(
-      transforms_, node_.now(), [this](const LaserScan& scan, const Pose3& base_in_odom) {
-        const auto laser = transforms_.lookup("base_link", scan.frame_id, scan.stamp);
-        if (!laser) return;
-        const Duration sweep = seconds(static_cast<double>(scan.time_increment) *
-                                       static_cast<double>(scan.ranges.size()));
-        const auto last = transforms_.lookup("odom", "base_link", scan.stamp + sweep);
-        const Pose2 first = to_pose2(base_in_odom);
-        dwa_.local_map().integrate(scan, {first, last ? to_pose2(*last) : first, to_pose2(*laser)});
-        inputs_.scan_stamp = scan.stamp;
-      });
+  scans_.process(transforms_, node_.now(),
+                 [this](const LaserScan& scan, const Pose3& base_in_odom) {
+                   const auto pose = scan_pose(transforms_, "odom", scan, base_in_odom);
+                   if (!pose) return;
+                   dwa_.local_map().integrate(scan, *pose);
+                   inputs_.scan_stamp = scan.stamp;
+                 });
 }
 
 void DwaNode::step() {
   const Time now = node_.now();
   integrate_scans();
-  inputs_.odom_in_map.reset();
-  if (const auto newest = transforms_.newest_stamp("map", "odom")) {
-    if (const auto pose = transforms_.lookup("map", "odom", *newest)) {
-      inputs_.odom_in_map = StampedPose2{std::min(*newest, now), to_pose2(*pose)};
-    }
-  }
+  inputs_.odom_in_map = newest_pose(transforms_, "map", "odom", now);
   inputs_.emergency_stop = emergency_stops_.engaged();
   const DwaOutput output = dwa_.update(inputs_, now);
   command_publisher_.publish(

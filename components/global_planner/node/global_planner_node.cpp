@@ -1,9 +1,10 @@
 #include "global_planner/node/global_planner_node.hpp"
 
 #include "conversions/geometry.hpp"
+#include "conversions/mission.hpp"
 #include "conversions/navigation.hpp"
-#include "conversions/sensors.hpp"
 #include "conversions/time.hpp"
+#include "runtime/scan_queue.hpp"
 
 namespace coop::global_planner {
 
@@ -81,15 +82,8 @@ GlobalPlannerNode::GlobalPlannerNode(runtime::Node& node, const Config& config)
                                                  const auto map = conversions::from_msg(message);
                                                  if (map) planner_.map().set_map(map->value);
                                                });
-  node.subscribe<sensor_msgs::msg::LaserScan>(
-      "scan", Qos::kSensorStream,
-      [this](const sensor_msgs::msg::LaserScan& message) {
-        auto scan = conversions::from_msg(message);
-        if (!scan) return;
-        const Time stamp = scan->stamp;
-        scans_.push(std::move(*scan), "base_link", stamp);
-      },
-      runtime::Attention::kPatient);
+  node.subscribe<sensor_msgs::msg::LaserScan>("scan", Qos::kSensorStream, runtime::put_into(scans_),
+                                              runtime::Attention::kPatient);
   node.subscribe<geometry_msgs::msg::PoseStamped>(
       "goal_pose", Qos::kEvent,
       [this](const geometry_msgs::msg::PoseStamped& message) { receive_goal(message); });
@@ -97,8 +91,9 @@ GlobalPlannerNode::GlobalPlannerNode(runtime::Node& node, const Config& config)
       "navigation_status", Qos::kStateLatched,
       [this](const NavigationStatus& message) { receive_driver(message); });
   node.subscribe<coop_msgs::msg::MissionStatus>(
-      "mission_status", Qos::kStateLatched,
-      [this](const coop_msgs::msg::MissionStatus& message) { receive_eggs(message); });
+      "mission_status", Qos::kStateLatched, [this](const coop_msgs::msg::MissionStatus& message) {
+        planner_.map().set_spots(conversions::uncollected_eggs(message, config_.egg_radius));
+      });
   node.every(kUpdatePeriod, [this] { update(); });
   publish_status();
 }
@@ -147,39 +142,17 @@ void GlobalPlannerNode::receive_driver(const NavigationStatus& message) {
   planner_.report(report);
 }
 
-/// Eggs on the floor must not come under the wheels.
-void GlobalPlannerNode::receive_eggs(const coop_msgs::msg::MissionStatus& message) {
-  std::vector<PlanningMap::Spot> spots;
-  for (const auto& egg : message.eggs()) {
-    if (egg.state() == coop_msgs::msg::EggStatus_Constants::PICKED) continue;
-    spots.push_back({{egg.position().x(), egg.position().y()}, config_.egg_radius});
-  }
-  planner_.map().set_spots(std::move(spots));
-}
-
 void GlobalPlannerNode::integrate_scans() {
   scans_.process(transforms_, node_.now(), [this](const LaserScan& scan, const Pose3& base_in_map) {
-    const auto laser = transforms_.lookup("base_link", scan.frame_id, scan.stamp);
-    if (!laser) return;
-    const Duration sweep =
-        seconds(static_cast<double>(scan.time_increment) * static_cast<double>(scan.ranges.size()));
-    const auto last = transforms_.lookup("map", "base_link", scan.stamp + sweep);
-    const Pose2 first = to_pose2(base_in_map);
-    planner_.map().integrate(scan, {first, last ? to_pose2(*last) : first, to_pose2(*laser)});
+    const auto pose = scan_pose(transforms_, "map", scan, base_in_map);
+    if (pose) planner_.map().integrate(scan, *pose);
   });
-}
-
-std::optional<Pose2> GlobalPlannerNode::robot_in_map() const {
-  const auto newest = transforms_.newest_stamp("map", "base_link");
-  if (!newest || node_.now() - *newest > kPoseAge) return std::nullopt;
-  const auto pose = transforms_.lookup("map", "base_link", *newest);
-  if (!pose) return std::nullopt;
-  return to_pose2(*pose);
 }
 
 void GlobalPlannerNode::update() {
   integrate_scans();
-  const auto robot = robot_in_map();
+  const auto found = newest_pose(transforms_, "map", "base_link", node_.now(), kPoseAge);
+  const auto robot = found ? std::optional(found->pose) : std::nullopt;
   const GlobalPlanner::Changes changes = planner_.update(robot, node_.now());
   if (changes.plan) {
     node_.log().debug("plan of {} poses: {}", planner_.plan().size(), changes.why);

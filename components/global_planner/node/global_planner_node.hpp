@@ -35,10 +35,8 @@ class GlobalPlannerNode {
   void receive_goal(const geometry_msgs::msg::PoseStamped& message);
   void take_back_goal(const geometry_msgs::msg::PoseStamped& message);
   void receive_driver(const coop_msgs::msg::NavigationStatus& message);
-  void receive_eggs(const coop_msgs::msg::MissionStatus& message);
   void integrate_scans();
   void update();
-  [[nodiscard]] std::optional<Pose2> robot_in_map() const;
   void publish_plan();
   void publish_status();
   void publish_costmap();

@@ -59,7 +59,8 @@ std::optional<NavigationReport> to_report(const NavigationStatus& status) {
     report.state = NavigationReport::State::kArrived;
     return report;
   }
-  if (status.state() == NavigationConstants::FAILED) {
+  if (status.state() == NavigationConstants::FAILED ||
+      status.state() == NavigationConstants::PREEMPTED) {
     report.state = NavigationReport::State::kFailed;
     report.reason = reason_of(status);
     return report;

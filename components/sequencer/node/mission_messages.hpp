@@ -10,7 +10,7 @@ namespace coop::sequencer {
                                                    const EggTracks& tracks, Time now);
 
 /// Nothing while the drive is under way or the message is about another goal. Only dwa tells of an
-/// arrival; both navigators may fail.
+/// arrival; both navigators may fail. A goal taken back has failed too.
 [[nodiscard]] std::optional<NavigationReport> to_report(
     const coop_msgs::msg::NavigationStatus& status);
 

@@ -5,6 +5,7 @@
 #include "conversions/detections.hpp"
 #include "conversions/geometry.hpp"
 #include "conversions/navigation.hpp"
+#include "conversions/sensors.hpp"
 #include "conversions/time.hpp"
 #include "coop_msgs/msg/PickResult.h"
 #include "core/robot/robot_model.hpp"
@@ -74,6 +75,11 @@ SequencerNode::SequencerNode(runtime::Node& node, const Config& config)
   node.subscribe<vision_msgs::msg::Detection3DArray>(
       "eggs", Qos::kEvent,
       [this](const vision_msgs::msg::Detection3DArray& message) { receive_eggs(message); });
+  node.subscribe<sensor_msgs::msg::CameraInfo>("camera/camera_info", Qos::kSensorStream,
+                                               [this](const sensor_msgs::msg::CameraInfo& message) {
+                                                 if (auto camera = conversions::from_msg(message))
+                                                   camera_ = std::move(*camera);
+                                               });
   node.subscribe<NavigationStatus>(
       "navigation_status", Qos::kStateLatched,
       [this](const NavigationStatus& message) { receive_navigation(message); });
@@ -127,8 +133,9 @@ void SequencerNode::receive_eggs(const vision_msgs::msg::Detection3DArray& messa
     }
     return;
   }
-  if (detections->value.empty()) return;
-  waiting_.push(std::move(detections->value), detections->frame_id, detections->stamp);
+  const std::string frame = detections->frame_id;
+  const Time stamp = detections->stamp;
+  waiting_.push(std::move(*detections), frame, stamp);
 }
 
 void SequencerNode::receive_navigation(const NavigationStatus& message) {
@@ -143,17 +150,13 @@ void SequencerNode::receive_navigation(const NavigationStatus& message) {
 
 void SequencerNode::look_at_sightings() {
   waiting_.process(transforms_, node_.now(),
-                   [this](const std::vector<Detection>& detections, const Pose3& camera_in_map) {
-                     sequencer_.see(to_sightings(detections, camera_in_map), node_.now());
+                   [this](const Stamped<std::vector<Detection>>& seen, const Pose3& camera) {
+                     Picture picture{seen.stamp, to_sightings(seen.value, camera), {}};
+                     if (camera_ && camera_->frame_id == seen.frame_id) {
+                       picture.view = CameraView{camera, camera_->value};
+                     }
+                     sequencer_.see(picture);
                    });
-}
-
-std::optional<Pose2> SequencerNode::robot_in_map() {
-  const auto newest = transforms_.newest_stamp("map", "base_link");
-  if (!newest || node_.now() - *newest > kPoseAge) return std::nullopt;
-  const auto pose = transforms_.lookup("map", "base_link", *newest);
-  if (!pose) return std::nullopt;
-  return to_pose2(*pose);
 }
 
 void SequencerNode::autostart() {
@@ -172,7 +175,8 @@ void SequencerNode::step() {
     if (unwritten_) return;
   }
   MissionSnapshot snapshot;
-  snapshot.robot_in_map = robot_in_map();
+  const auto robot = newest_pose(transforms_, "map", "base_link", node_.now(), kPoseAge);
+  if (robot) snapshot.robot_in_map = robot->pose;
   if (snapshot.robot_in_map && sequencer_.has_costmap()) autostart();
   if (!navigation_.empty()) snapshot.navigation = navigation_.rbegin()->second;
   snapshot.pick = pick_;
@@ -198,6 +202,10 @@ void SequencerNode::carry_out(const MissionActions& actions) {
     geometry_msgs::msg::PoseStamped goal = conversions::to_msg(Stamped<Pose2>{
         Time(Duration(std::stoll(actions.goal->goal_id))), "map", actions.goal->pose_in_map});
     goal_publisher_.publish(goal);
+  }
+  if (actions.take_back) {  // a goal without a frame
+    goal_publisher_.publish(conversions::to_msg(
+        Stamped<Pose2>{Time(Duration(std::stoll(*actions.take_back))), "", {}}));
   }
   if (actions.pick) {
     coop_msgs::msg::Pick pick;

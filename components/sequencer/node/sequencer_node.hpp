@@ -6,6 +6,8 @@
 #include "coop_msgs/msg/NavigationStatus.h"
 #include "coop_msgs/msg/Pick.h"
 #include "core/detection.hpp"
+#include "core/intrinsics.hpp"
+#include "core/stamped.hpp"
 #include "geometry_msgs/msg/PoseStamped.h"
 #include "runtime/node.hpp"
 #include "runtime/stamped_queue.hpp"
@@ -30,7 +32,6 @@ class SequencerNode {
   void look_at_sightings();
   void step();
   void autostart();
-  [[nodiscard]] std::optional<Pose2> robot_in_map();
   void carry_out(const MissionActions& actions);
   void publish_status();
 
@@ -39,7 +40,8 @@ class SequencerNode {
   Sequencer sequencer_;
   Journal journal_;
   const TransformBuffer& transforms_;
-  runtime::StampedQueue<std::vector<Detection>> waiting_;
+  runtime::StampedQueue<Stamped<std::vector<Detection>>> waiting_;
+  std::optional<Stamped<Intrinsics>> camera_;            ///< the last calibration told
   std::map<std::int64_t, NavigationReport> navigation_;  ///< by goal id, a stamp in nanoseconds
   std::optional<PickReport> pick_;
   std::optional<MissionActions> unwritten_;  ///< held back until the journal takes the state

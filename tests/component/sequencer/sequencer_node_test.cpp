@@ -9,6 +9,7 @@
 #include "conversions/detections.hpp"
 #include "conversions/geometry.hpp"
 #include "conversions/navigation.hpp"
+#include "conversions/sensors.hpp"
 #include "conversions/time.hpp"
 #include "core/config/error.hpp"
 #include "support/component_fixture.hpp"
@@ -42,6 +43,8 @@ class SequencerNodeTest : public testing::Test {
     costmap_ = tester.advertise<nav_msgs::msg::OccupancyGrid>("global_costmap", Qos::kStateLatched);
     eggs_ = tester.advertise<vision_msgs::msg::Detection3DArray>("eggs", Qos::kEvent);
     navigation_ = tester.advertise<NavigationStatus>("navigation_status", Qos::kStateLatched);
+    cameras_ =
+        tester.advertise<sensor_msgs::msg::CameraInfo>("camera/camera_info", Qos::kSensorStream);
     results_ = tester.advertise<PickResult>("pick_result", Qos::kEvent);
     goals_ = fixture_.collect<PoseStamped>("goal_pose", Qos::kEvent);
     picks_ = fixture_.collect<Pick>("pick", Qos::kEvent);
@@ -76,6 +79,20 @@ class SequencerNodeTest : public testing::Test {
       detection.covariance = Eigen::Matrix3d::Identity() * 1e-4;
       eggs_.publish(conversions::to_msg(
           Stamped<std::vector<Detection>>{fixture_.now(), "base_link", {detection}}));
+      live(200ms);
+    }
+  }
+
+  /// Pictures without an egg, of a camera above the working point that looks straight down.
+  void see_nothing(int pictures) {
+    const Pose3 camera = Eigen::Translation3d(0.92, 0, 1.0) *
+                         Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX());
+    fixture_.tester().publish_static_transform("base_link", "eye", camera);
+    for (int i = 0; i < pictures; ++i) {
+      cameras_.publish(conversions::to_msg(
+          Stamped<Intrinsics>{fixture_.now(), "eye", {101, 101, 100, 100, 50, 50}}));
+      eggs_.publish(
+          conversions::to_msg(Stamped<std::vector<Detection>>{fixture_.now(), "eye", {}}));
       live(200ms);
     }
   }
@@ -123,6 +140,7 @@ class SequencerNodeTest : public testing::Test {
   runtime::Publisher<nav_msgs::msg::OccupancyGrid> costmap_;
   runtime::Publisher<vision_msgs::msg::Detection3DArray> eggs_;
   runtime::Publisher<NavigationStatus> navigation_;
+  runtime::Publisher<sensor_msgs::msg::CameraInfo> cameras_;
   runtime::Publisher<PickResult> results_;
   std::shared_ptr<std::vector<PoseStamped>> goals_;
   std::shared_ptr<std::vector<Pick>> picks_;
@@ -172,6 +190,50 @@ TEST_F(SequencerNodeTest, AnArrivalOnlyThePlannerSpeaksOfIsNone) {
   live(500ms);
   answer_goal(NavigationConstants::ARRIVED, "global_planner");
   EXPECT_TRUE(picks_->empty());
+}
+
+TEST_F(SequencerNodeTest, AnEggThatIsNotThereWhereItWasSeenIsReportedMissing) {
+  start();
+  publish_costmap();
+  live(500ms);
+  see_egg();
+  live(500ms);
+  for (int look = 0; look < 2; ++look) {
+    ASSERT_TRUE(picks_->empty());
+    ASSERT_FALSE(goals_->empty());
+    robot_ = conversions::from_msg(goals_->back())->value;  // there, and not yet told to be
+    live(200ms);
+    see_nothing(8);
+    live(500ms);
+  }
+  EXPECT_TRUE(picks_->empty());
+  ASSERT_EQ(status_->back().eggs().size(), 1U);
+  EXPECT_EQ(status_->back().eggs()[0].state(), coop_msgs::msg::EggStatus_Constants::MISSING);
+  EXPECT_EQ(status_->back().eggs()[0].reason(), "not there: 6 pictures of its place without it");
+}
+
+TEST_F(SequencerNodeTest, PauseTakesTheGoalBackByAGoalWithoutAFrame) {
+  start();
+  publish_costmap();
+  live(500ms);
+  ASSERT_FALSE(goals_->empty());
+  const std::string id = id_of(goals_->back());
+  auto orders = fixture_.tester().advertise<coop_msgs::msg::Mission>("mission", Qos::kStateLatched);
+  coop_msgs::msg::Mission mission;
+  mission.command(coop_msgs::msg::Mission_Constants::PAUSE);
+  orders.publish(mission);
+  live(500ms);
+  EXPECT_EQ(phase(), StatusConstants::PAUSED);
+  EXPECT_EQ(goals_->back().header().frame_id(), "");
+  EXPECT_EQ(id_of(goals_->back()), id);
+  const std::size_t told = goals_->size();
+  NavigationStatus answer;
+  answer.source("global_planner");
+  answer.goal_id(id);
+  answer.state(NavigationConstants::PREEMPTED);
+  navigation_.publish(answer);
+  live(5s);
+  EXPECT_EQ(goals_->size(), told) << "answered: not taken back again";
 }
 
 TEST_F(SequencerNodeTest, KilledInMidPickItAsksForTheSamePickAgain) {

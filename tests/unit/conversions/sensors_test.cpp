@@ -196,5 +196,35 @@ TEST(JointStateConversion, lists_that_do_not_run_parallel_are_refused) {
   EXPECT_FALSE(from_msg(to_msg(JointState{kStamp, {""}, {0.1}, {}, {}})));
 }
 
+TEST(CameraInfoConversion, a_calibration_survives_the_round_trip) {
+  const Intrinsics camera{.width = 424, .height = 240, .fx = 308, .fy = 309, .cx = 211, .cy = 121};
+  const auto message = to_msg(Stamped<Intrinsics>{kStamp, "camera_optical_frame", camera});
+  EXPECT_EQ(message.k()[2], 211);
+  const auto back = from_msg(message);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->stamp, kStamp);
+  EXPECT_EQ(back->frame_id, "camera_optical_frame");
+  EXPECT_EQ(back->value.width, 424);
+  EXPECT_EQ(back->value.height, 240);
+  EXPECT_EQ(back->value.project({0.1, -0.1, 1.0}), camera.project({0.1, -0.1, 1.0}));
+}
+
+TEST(CameraInfoConversion, what_is_no_pinhole_camera_is_refused) {
+  const auto good = to_msg(Stamped<Intrinsics>{kStamp, "c", {4, 3, 5, 5, 2, 1}});
+  EXPECT_TRUE(from_msg(good));
+  auto message = good;
+  message.width(0);
+  EXPECT_FALSE(from_msg(message));
+  message = good;
+  message.k()[0] = 0.0;
+  EXPECT_FALSE(from_msg(message));
+  message = good;
+  message.k()[5] = kNan;
+  EXPECT_FALSE(from_msg(message));
+  message = good;
+  message.d()[0] = 0.1;
+  EXPECT_FALSE(from_msg(message));
+}
+
 }  // namespace
 }  // namespace coop::conversions

@@ -76,5 +76,21 @@ TEST_F(TransformBufferTest, HistoryBeyondItsLengthIsForgotten) {
   EXPECT_EQ(buffer_.lookup("odom", "base_link", at(10.5)).error(), TransformError::kTooOld);
 }
 
+TEST_F(TransformBufferTest, TheNewestPoseIsThatOfTheSlowestLinkUnlessItIsTooOld) {
+  const auto pose = newest_pose(buffer_, "map", "base_link", at(11.4), seconds(0.5));
+  ASSERT_TRUE(pose);
+  EXPECT_EQ(pose->stamp, at(11));
+  EXPECT_NEAR(pose->pose.x, 6, 1e-12);
+  EXPECT_FALSE(newest_pose(buffer_, "map", "base_link", at(11.6), seconds(0.5)));
+  EXPECT_TRUE(newest_pose(buffer_, "map", "base_link", at(99)));
+  EXPECT_FALSE(newest_pose(buffer_, "map", "moon", at(11)));
+}
+
+TEST_F(TransformBufferTest, ATransformThatHoldsLongerIsOfNow) {
+  const auto pose = newest_pose(buffer_, "map", "odom", at(11.5), seconds(0.5));
+  ASSERT_TRUE(pose);
+  EXPECT_EQ(pose->stamp, at(11.5));
+}
+
 }  // namespace
 }  // namespace coop

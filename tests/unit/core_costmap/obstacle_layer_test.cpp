@@ -142,5 +142,26 @@ TEST(ObstacleLayer, ATimeSetBackDoesNotKeepOldMarksAlive) {
   EXPECT_EQ(layer.state({16, 5}), State::kClear);
 }
 
+TEST(ScanPose, IsThatOfTheFirstAndOfTheLastBeam) {
+  TransformBuffer transforms;
+  transforms.insert_static("base_link", "laser_link", to_pose3({0.5, 0, 0}));
+  transforms.insert("odom", "base_link", time_from_seconds(10.0), to_pose3({1, 0, 0}));
+  LaserScan scan = scan_of({1.0F, 1.0F, 1.0F}, 10.0);
+  scan.frame_id = "laser_link";
+  scan.time_increment = 0.1F;  // three beams: two steps, 0.2 s
+  const Pose3 base = to_pose3({1, 0, 0});
+  const auto early = scan_pose(transforms, "odom", scan, base);
+  ASSERT_TRUE(early);
+  EXPECT_EQ(early->base_in_grid_last, early->base_in_grid_first) << "the last is not known yet";
+  transforms.insert("odom", "base_link", time_from_seconds(10.4), to_pose3({2, 0, 0}));
+  const auto pose = scan_pose(transforms, "odom", scan, base);
+  ASSERT_TRUE(pose);
+  EXPECT_NEAR(pose->base_in_grid_first.x, 1.0, 1e-9);
+  EXPECT_NEAR(pose->base_in_grid_last.x, 1.5, 1e-6);
+  EXPECT_NEAR(pose->laser_in_base.x, 0.5, 1e-9);
+  scan.frame_id = "moon";
+  EXPECT_FALSE(scan_pose(transforms, "odom", scan, base));
+}
+
 }  // namespace
 }  // namespace coop

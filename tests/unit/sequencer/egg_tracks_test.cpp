@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "unit/sequencer/straight_down.hpp"
+
 namespace coop::sequencer {
 namespace {
 
@@ -15,8 +17,20 @@ Sighting sighting(double x, double y, double stddev = 0.05) {
 
 class EggTracksTest : public ::testing::Test {
  protected:
+  /// Pictures that do not tell what they show.
   void see(const std::vector<Sighting>& sightings, int times = 1) {
-    for (int i = 0; i < times; ++i) tracks_.update(sightings, at(now_ += 0.2));
+    for (int i = 0; i < times; ++i) tracks_.update({at(now_ += 0.2), sightings, {}});
+  }
+  /// Pictures of the square of 1 m around (2, 3).
+  void look_down(const std::vector<Sighting>& sightings, int times = 1) {
+    for (int i = 0; i < times; ++i) {
+      tracks_.update({at(now_ += 0.2), sightings, test::straight_down({2, 3})});
+    }
+  }
+  /// An egg at (2, 3), just picked.
+  void pick_an_egg() {
+    look_down({sighting(2, 3)}, 3);
+    tracks_.mark_picked(tracks_.tracks().at(0).id, at(now_));
   }
   double now_ = 10;
   EggTracks tracks_{EggTracksConfig{}};
@@ -45,20 +59,67 @@ TEST_F(EggTracksTest, EggsHalfAMetreApartAreTwo) {
 
 TEST_F(EggTracksTest, AFlickerIsForgotten) {
   see({sighting(2, 3)});
-  tracks_.update({}, at(now_ + 30));
+  tracks_.update({at(now_ + 30), {}, {}});
   EXPECT_TRUE(tracks_.tracks().empty());
 }
 
-TEST_F(EggTracksTest, APickedEggAbsorbsItsEchoAndThenANewOneCounts) {
-  see({sighting(2, 3)}, 3);
-  const std::string id = tracks_.tracks()[0].id;
-  tracks_.mark_picked(id, at(now_));
-  see({sighting(2, 3)}, 5);
+TEST_F(EggTracksTest, PicturesThatShowItsPlaceWithoutItAreCountedUntilItIsSeen) {
+  look_down({sighting(2, 3)}, 3);
+  EXPECT_EQ(tracks_.tracks()[0].seen_in_row, 3);
+  look_down({}, 4);
+  EXPECT_EQ(tracks_.tracks()[0].unseen_in_row, 4);
+  EXPECT_EQ(tracks_.tracks()[0].seen_in_row, 0);
+  look_down({sighting(2, 3)});
+  EXPECT_EQ(tracks_.tracks()[0].unseen_in_row, 0);
+}
+
+TEST_F(EggTracksTest, PicturesThatDoNotShowItsPlaceSayNothingOfIt) {
+  see({sighting(2.45, 3)}, 3);  // in a corner of what look_down() shows
+  look_down({}, 4);
+  see({}, 4);
+  EXPECT_EQ(tracks_.tracks()[0].unseen_in_row, 0);
+  EXPECT_EQ(tracks_.tracks()[0].seen_in_row, 3);
+}
+
+TEST_F(EggTracksTest, PicturesOfBeforeTheEndOfThePickAreItsEcho) {
+  look_down({sighting(2, 3)}, 3);
+  tracks_.mark_picked("egg1", at(now_ + 10));
+  look_down({sighting(2, 3)}, 20);
   EXPECT_EQ(tracks_.tracks().size(), 1U);
-  now_ += 60;
-  see({sighting(2, 3)}, 3);
+}
+
+TEST_F(EggTracksTest, AnEggThatLiesWhereOneWasPickedIsANewOneAfterFivePictures) {
+  pick_an_egg();
+  look_down({sighting(2, 3)}, 4);
+  EXPECT_EQ(tracks_.tracks().size(), 1U);
+  look_down({sighting(2, 3)});
   ASSERT_EQ(tracks_.tracks().size(), 2U);
-  EXPECT_NE(tracks_.tracks()[1].id, id);
+  EXPECT_EQ(tracks_.tracks()[1].id, "egg2");
+  EXPECT_TRUE(tracks_.tracks()[1].confirmed);
+  EXPECT_FALSE(tracks_.tracks()[1].picked);
+  look_down({sighting(2, 3)}, 10);
+  EXPECT_EQ(tracks_.tracks().size(), 2U) << "later sightings are of the new one";
+  EXPECT_EQ(tracks_.tracks()[1].seen_in_row, 11);
+}
+
+TEST_F(EggTracksTest, AFlickerWhereAnEggWasPickedIsNoEgg) {
+  pick_an_egg();
+  for (int i = 0; i < 10; ++i) {
+    look_down({sighting(2, 3)}, 4);
+    look_down({});
+  }
+  EXPECT_EQ(tracks_.tracks().size(), 1U);
+}
+
+TEST_F(EggTracksTest, AnEggLaidMuchLaterWhereOneWasPickedCounts) {
+  pick_an_egg();
+  look_down({}, 3);
+  now_ += 600;
+  look_down({sighting(2.03, 3.02)}, 5);
+  ASSERT_EQ(tracks_.tracks().size(), 2U);
+  tracks_.mark_picked("egg2", at(now_));
+  look_down({sighting(2.03, 3.02)}, 5);
+  EXPECT_EQ(tracks_.tracks().size(), 3U) << "and so does the one after it";
 }
 
 TEST_F(EggTracksTest, WeakOrBrokenDetectionsAreIgnored) {

@@ -2,86 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <map>
 #include <set>
 
 #include "core/random.hpp"
+#include "unit/sequencer/mission_fixture.hpp"
 
 namespace coop::sequencer {
 namespace {
 
-/// A world that answers the mission: it drives at once, picks at once, unless told to fail.
-class MissionTest : public ::testing::Test {
- protected:
-  MissionTest() : mission_(config(), {}) {
-    queries_.pose_cost = [](const Pose2&) { return std::optional<double>(1.0); };
-    queries_.order = [](const Pose2&, const std::vector<const EggTask*>& eggs) {
-      OrderedEggs ordered;
-      for (const EggTask* egg : eggs) ordered.order.push_back(egg->id);
-      ordered.cost = 5.0;
-      return ordered;
-    };
-  }
-
-  static MissionConfig config() {
-    MissionConfig config;
-    config.max_attempts = 2;
-    config.expected_eggs = 2;
-    return config;
-  }
-
-  void add_egg(const std::string& id, double x, double y) {
-    EggTrack track;
-    track.id = id;
-    track.egg_in_map = {x, y};
-    track.confirmed = true;
-    tracks_.push_back(track);
-  }
-
-  MissionActions step(double dt = 0.1) {
-    now_ += seconds(dt);
-    MissionSnapshot snapshot;
-    snapshot.robot_in_map = robot_;
-    snapshot.navigation = navigation_;
-    snapshot.pick = pick_;
-    snapshot.tracks = &tracks_;
-    const MissionActions actions = mission_.step(snapshot, queries_, now_);
-    if (actions.goal) goals_.push_back(*actions.goal);
-    if (actions.pick) picks_.push_back(*actions.pick);
-    if (actions.picked_egg) {
-      for (EggTrack& track : tracks_) track.picked |= track.id == *actions.picked_egg;
-    }
-    return actions;
-  }
-
-  /// Steps until the mission asks for something new; answers the number of goals.
-  void step_until_phase(MissionPhase phase, int limit = 100) {
-    for (int i = 0; i < limit && mission_.state().phase != phase; ++i) step();
-    ASSERT_EQ(mission_.state().phase, phase);
-  }
-
-  void arrive() {
-    robot_ = goals_.back().pose_in_map;
-    navigation_ = {goals_.back().goal_id, NavigationReport::State::kArrived, ""};
-  }
-  void fail_to_arrive(const std::string& reason) {
-    navigation_ = {goals_.back().goal_id, NavigationReport::State::kFailed, reason};
-  }
-  void answer_pick(bool picked, const std::string& reason = "") {
-    pick_ = PickReport{mission_.state().pick_id, picked, true, reason};
-  }
-
-  Mission mission_;
-  MapQueries queries_;
-  Time now_ = time_from_seconds(100);
-  std::optional<Pose2> robot_ = Pose2{0, 0, 0};
-  std::optional<NavigationReport> navigation_;
-  std::optional<PickReport> pick_;
-  std::vector<EggTrack> tracks_;
-  std::vector<GoalOrder> goals_;
-  std::vector<PickOrder> picks_;
-};
+using test::MissionTest;
 
 TEST_F(MissionTest, ASurveyDrivesItsWaypointsInOrderAndReportsTheOnesItMissed) {
   mission_.start(MissionKind::kSurvey, "m", {{"gate", {1, 0, 0}}, {"pond", {2, 0, 0}}});
@@ -235,16 +165,50 @@ TEST_F(MissionTest, AnEggSeenOnTheWayIsCollectedToo) {
   EXPECT_EQ(mission_.state().count(EggPhase::kPicked), 2);
 }
 
-TEST_F(MissionTest, PauseStopsTheRobotWhereItIsAndResumeGoesOn) {
+TEST_F(MissionTest, PauseTakesTheGoalBackAndResumeGivesANewOne) {
   mission_.start(MissionKind::kSurvey, "m", {{"gate", {5, 0, 0}}});
   step();
-  robot_ = Pose2{2, 1, 0.5};
+  const std::string id = goals_.back().goal_id;
   mission_.pause();
   step();
-  EXPECT_EQ(goals_.back().pose_in_map, *robot_);
+  EXPECT_EQ(taken_back_, std::vector<std::string>{id});
+  EXPECT_EQ(goals_.size(), 1U);
   mission_.resume();
   step();
   EXPECT_DOUBLE_EQ(goals_.back().pose_in_map.x, 5);
+  EXPECT_NE(goals_.back().goal_id, id);
+}
+
+TEST_F(MissionTest, AGoalIsTakenBackUntilANavigatorAnswers) {
+  mission_.start(MissionKind::kSurvey, "m", {{"gate", {5, 0, 0}}});
+  step();
+  mission_.abort("enough");
+  for (int i = 0; i < 50; ++i) step();  // 5 s
+  EXPECT_EQ(taken_back_.size(), 3U);
+  fail_to_arrive("cancelled");
+  for (int i = 0; i < 50; ++i) step();
+  EXPECT_EQ(taken_back_.size(), 3U);
+  EXPECT_EQ(mission_.state().phase, MissionPhase::kFailed);
+}
+
+TEST_F(MissionTest, AMissionRestoredWhilePausedTakesItsGoalBack) {
+  mission_.start(MissionKind::kSurvey, "m", {{"gate", {5, 0, 0}}});
+  step();
+  mission_.pause();
+  const MissionState saved = mission_.state();
+  mission_ = Mission(config(), {});
+  mission_.restore(saved);
+  step();
+  EXPECT_EQ(taken_back_, std::vector<std::string>{goals_.back().goal_id});
+}
+
+TEST_F(MissionTest, AtItsEndNoGoalIsInForce) {
+  mission_.start(MissionKind::kSurvey, "m", {{"gate", {5, 0, 0}}});
+  step();
+  arrive();
+  step_until_phase(MissionPhase::kDone);
+  for (int i = 0; i < 30; ++i) step();
+  EXPECT_TRUE(taken_back_.empty());
 }
 
 TEST_F(MissionTest, WithoutAPoseNothingIsOrdered) {
@@ -255,6 +219,7 @@ TEST_F(MissionTest, WithoutAPoseNothingIsOrdered) {
 }
 
 TEST_F(MissionTest, WhateverIsAnsweredNoEggIsLostOrPickedTwice) {
+  int missing = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     RandomStream random(seed, "answers");
     mission_ = Mission(config(), {});
@@ -282,16 +247,26 @@ TEST_F(MissionTest, WhateverIsAnsweredNoEggIsLostOrPickedTwice) {
       if (!mission_.state().pick_id.empty() && random.uniform() < 0.3) {
         answer_pick(random.uniform() < 0.6, "chance");
       }
+      for (EggTrack& track : tracks_) {  // now and then a picture, with the egg or without it
+        const bool shown = random.uniform() < 0.9;
+        const bool with = random.uniform() < 0.1;
+        if (!shown) continue;
+        track.seen_in_row = with ? track.seen_in_row + 1 : 0;
+        track.unseen_in_row = with ? 0 : track.unseen_in_row + 1;
+      }
       if (const auto actions = step(0.3); actions.picked_egg) ++picked[*actions.picked_egg];
     }
     ASSERT_FALSE(mission_.state().is_active()) << "seed " << seed;
     for (const EggTask& egg : mission_.state().eggs) {
       const bool was_picked = egg.phase == EggPhase::kPicked;
-      EXPECT_TRUE(was_picked || egg.phase == EggPhase::kFailed) << "seed " << seed;
+      const bool was_missing = egg.phase == EggPhase::kMissing;
+      missing += was_missing ? 1 : 0;
+      EXPECT_TRUE(was_picked || was_missing || egg.phase == EggPhase::kFailed) << "seed " << seed;
       EXPECT_EQ(picked[egg.id], was_picked ? 1 : 0) << "seed " << seed;
       EXPECT_EQ(egg.reason.empty(), was_picked) << "seed " << seed;
     }
   }
+  EXPECT_GT(missing, 5) << "the case occurs";
 }
 
 }  // namespace

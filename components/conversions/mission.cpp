@@ -1,0 +1,15 @@
+#include "conversions/mission.hpp"
+
+namespace coop::conversions {
+
+std::vector<Spot> uncollected_eggs(const coop_msgs::msg::MissionStatus& message, double radius) {
+  std::vector<Spot> spots;
+  for (const auto& egg : message.eggs()) {
+    if (egg.state() == coop_msgs::msg::EggStatus_Constants::PICKED) continue;
+    const Eigen::Vector2d place(egg.position().x(), egg.position().y());
+    if (place.allFinite()) spots.push_back({place, radius});
+  }
+  return spots;
+}
+
+}  // namespace coop::conversions
