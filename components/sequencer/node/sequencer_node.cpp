@@ -196,7 +196,9 @@ void SequencerNode::carry_out(const MissionActions& actions) {
       unwritten_ = actions;
       return;
     }
-    node_.log().info("{}: {}", to_string(state.phase), state.detail);
+    const std::string line = std::string(to_string(state.phase)) + ": " + state.detail;
+    if (line != logged_) node_.log().info("{}", line);
+    logged_ = line;
   }
   if (actions.goal) {
     geometry_msgs::msg::PoseStamped goal = conversions::to_msg(Stamped<Pose2>{

@@ -45,6 +45,7 @@ class SequencerNode {
   std::map<std::int64_t, NavigationReport> navigation_;  ///< by goal id, a stamp in nanoseconds
   std::optional<PickReport> pick_;
   std::optional<MissionActions> unwritten_;  ///< held back until the journal takes the state
+  std::string logged_;                       ///< the last line about the mission
   Time last_status_{};
   runtime::Publisher<geometry_msgs::msg::PoseStamped> goal_publisher_;
   runtime::Publisher<coop_msgs::msg::Pick> pick_publisher_;
