@@ -52,6 +52,20 @@ TEST_F(MissionSystem, TwoEggsAreFoundAndCollected) {
   EXPECT_EQ(status->code, 0);
 }
 
+TEST_F(MissionSystem, AnEggThatIsNotThereIsReportedMissingAndTheOthersAreCollected) {
+  start("collect.yaml", short_mission());
+  ASSERT_TRUE(wait([&] {
+    return watch_->mission().state() == coop_msgs::msg::MissionStatus_Constants::SEARCHING;
+  }));
+  watch_->pretend_egg(3.0, 0.0);
+  ASSERT_TRUE(wait([&] { return !watch_->mission().eggs().empty(); }));
+  ASSERT_TRUE(wait([&] { return watch_->is_done(); })) << watch_->mission().detail();
+  EXPECT_EQ(watch_->eggs_missing(), 1) << watch_->mission().detail();
+  EXPECT_EQ(watch_->eggs_picked(), 2) << watch_->mission().detail();
+  EXPECT_TRUE(wait([&] { return watch_->eggs_collected() == 2; }));
+  EXPECT_EQ(watch_->truth().collision_count(), 0U);
+}
+
 /// Each program is killed once: a third of them while the robot searches, drives and picks.
 TEST_F(MissionSystem, EveryProgramMayDieOnceAndTheMissionStillCompletes) {
   start("collect.yaml", short_mission());

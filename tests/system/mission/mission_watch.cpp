@@ -2,13 +2,18 @@
 
 #include <algorithm>
 
+#include "conversions/detections.hpp"
+#include "conversions/time.hpp"
+
 namespace coop::test {
 
 using coop_msgs::msg::GroundTruth;
 using coop_msgs::msg::MissionStatus;
 using runtime::Qos;
 
-MissionWatch::MissionWatch(int domain) : listener_(domain, "mission_watch") {
+MissionWatch::MissionWatch(int domain)
+    : listener_(domain, "mission_watch"),
+      eggs_(listener_.node().advertise<vision_msgs::msg::Detection3DArray>("eggs", Qos::kEvent)) {
   listener_.node().subscribe<MissionStatus>(
       "mission_status", Qos::kStateLatched,
       [this](const MissionStatus& status) { mission_ = status; });
@@ -24,6 +29,25 @@ int MissionWatch::eggs_picked() const {
   return static_cast<int>(std::ranges::count(mission_.eggs(),
                                              coop_msgs::msg::EggStatus_Constants::PICKED,
                                              [](const auto& egg) { return egg.state(); }));
+}
+
+int MissionWatch::eggs_missing() const {
+  return static_cast<int>(std::ranges::count(mission_.eggs(),
+                                             coop_msgs::msg::EggStatus_Constants::MISSING,
+                                             [](const auto& egg) { return egg.state(); }));
+}
+
+void MissionWatch::pretend_egg(double x, double y) {
+  const auto now = conversions::from_msg(truth_.header().stamp());
+  Detection egg;
+  egg.class_id = "egg";
+  egg.score = 0.9;
+  egg.position = {x, y, 0.02};
+  egg.covariance = 1e-4 * Eigen::Matrix3d::Identity();
+  for (int i = 0; i < 3; ++i) {
+    const Time stamp = now.value_or(Time{}) + std::chrono::milliseconds(i);
+    eggs_.publish(conversions::to_msg(Stamped<std::vector<Detection>>{stamp, "map", {egg}}));
+  }
 }
 
 int MissionWatch::eggs_collected() const {

@@ -3,7 +3,9 @@
 
 #include "coop_msgs/msg/GroundTruth.h"
 #include "coop_msgs/msg/MissionStatus.h"
+#include "runtime/node.hpp"
 #include "system/support/listener.hpp"
+#include "vision_msgs/msg/Detection3DArray.h"
 
 namespace coop::test {
 
@@ -19,9 +21,14 @@ class MissionWatch {
   [[nodiscard]] int eggs_picked() const;     ///< as the mission tells
   [[nodiscard]] int eggs_collected() const;  ///< as the simulated world has it
   [[nodiscard]] bool is_done() const;
+  [[nodiscard]] int eggs_missing() const;  ///< as the mission tells
+
+  /// Tells of an egg in the map, as a camera would with three pictures of it.
+  void pretend_egg(double x, double y);
 
  private:
   Listener listener_;
+  runtime::Publisher<vision_msgs::msg::Detection3DArray> eggs_;
   coop_msgs::msg::MissionStatus mission_;
   coop_msgs::msg::GroundTruth truth_;
 };
