@@ -75,11 +75,12 @@ SequencerNode::SequencerNode(runtime::Node& node, const Config& config)
   node.subscribe<vision_msgs::msg::Detection3DArray>(
       "eggs", Qos::kEvent,
       [this](const vision_msgs::msg::Detection3DArray& message) { receive_eggs(message); });
-  node.subscribe<sensor_msgs::msg::CameraInfo>("camera/camera_info", Qos::kSensorStream,
-                                               [this](const sensor_msgs::msg::CameraInfo& message) {
-                                                 if (auto camera = conversions::from_msg(message))
-                                                   camera_ = std::move(*camera);
-                                               });
+  node.subscribe<sensor_msgs::msg::CameraInfo>(
+      "camera/camera_info", Qos::kSensorStream,
+      [this](const sensor_msgs::msg::CameraInfo& message) {
+        if (auto camera = conversions::from_msg(message)) camera_ = std::move(*camera);
+      },
+      runtime::Attention::kPatient);
   node.subscribe<NavigationStatus>(
       "navigation_status", Qos::kStateLatched,
       [this](const NavigationStatus& message) { receive_navigation(message); });
