@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/config/error.hpp"
-
 namespace coop::amcl {
 namespace {
+
+constexpr double kRenewed = 0.3;  // of the particles, at each scan of a standing search
+constexpr int kAnnealed = 1000;   // candidates that it refines
+constexpr int kAnnealingSteps = 12;
+constexpr int kConfirmations = 5;   // scans on end that must say the same
+constexpr double kSamePlace = 0.3;  // m
 
 std::size_t most_particles(const AmclConfig& config) {
   return static_cast<std::size_t>(std::max(config.kld.max_particles, config.scattered_particles));
@@ -26,7 +30,9 @@ Amcl::Amcl(const AmclConfig& config, const OccupancyGrid& map, std::uint64_t see
       random_(seed, "amcl") {
   for (ParticleSet* set : {&particles_, &resampled_}) set->reserve(most_particles(config));
   fresh_.reserve(static_cast<std::size_t>(config.recovery_candidates));
-  scores_.reserve(most_particles(config));
+  proposed_.reserve(most_particles(config));
+  annealed_.reserve(kAnnealed);
+  for (auto* scores : {&scores_, &proposed_scores_}) scores->reserve(most_particles(config));
 }
 
 void Amcl::set_pose(const PoseEstimate& robot_in_map) {
@@ -44,9 +50,7 @@ void Amcl::set_pose(const PoseEstimate& robot_in_map) {
                           normalize_angle(robot_in_map.pose.yaw + offset.z())},
                          1.0F / static_cast<float>(count));
   }
-  estimate_ = {};
-  recovery_.reset();
-  settling_ = config_.standing_updates;
+  begin_search();
 }
 
 bool Amcl::scatter() {
@@ -56,28 +60,36 @@ bool Amcl::scatter() {
   for (int i = 0; i < count; ++i) {
     particles_.push_back(free_space_.draw(random_), 1.0F / static_cast<float>(count));
   }
-  estimate_ = {};
-  recovery_.reset();
-  settling_ = config_.standing_updates;
+  begin_search();
   return true;
 }
 
-std::optional<Pose2> Amcl::motion_since_update(Time stamp, const Pose2& base_in_odom) {
-  if (last_odometry_) {
-    const double elapsed = to_seconds(stamp - last_odometry_->stamp);
+void Amcl::begin_search() {
+  knows_one_place_ = true;
+  estimate_ = {};
+  recovery_.reset();
+  mean_fit_ = 0.0;
+  confirmed_ = 0;
+  settling_ = config_.standing_updates;
+}
+
+std::optional<Pose2> Amcl::motion_since_update(Time stamp, const OdometryFix& odometry) {
+  if (last_stamp_) {
+    const double elapsed = to_seconds(stamp - *last_stamp_);
     if (elapsed <= 0.0 && elapsed > -1.0) return std::nullopt;
-    const Pose2 step = last_odometry_->pose.inverse() * base_in_odom;
-    const double farthest = config_.plausible_speed * (std::max(0.0, elapsed) + 0.1);
-    const bool restarted =
-        elapsed < 0.0 || std::hypot(step.x, step.y) > farthest || std::abs(step.yaw) > farthest;
-    if (restarted) base_in_odom_at_update_.reset();
+    if (elapsed < 0.0) base_in_odom_at_update_.reset();  // the clock was set back
+    if (odometry.piece != piece_) {
+      spread(config_.restart_stddev, config_.restart_yaw_stddev);
+      settling_ = std::max(settling_, config_.settle_updates);
+    }
   }
-  last_odometry_ = StampedPose2{stamp, base_in_odom};
+  last_stamp_ = stamp;
+  piece_ = odometry.piece;
   if (!base_in_odom_at_update_) {
-    base_in_odom_at_update_ = base_in_odom;
+    base_in_odom_at_update_ = odometry.base_in_odom;
     settling_ = std::max(settling_, 1);
   }
-  return base_in_odom_at_update_->inverse() * base_in_odom;
+  return base_in_odom_at_update_->inverse() * odometry.base_in_odom;
 }
 
 void Amcl::predict(const Pose2& motion) {
@@ -86,39 +98,40 @@ void Amcl::predict(const Pose2& motion) {
   const double open = estimate_.localised
                           ? static_cast<double>(settling_) / std::max(1, config_.settle_updates)
                           : 1.0;
-  const double noise = open * config_.search_noise;
-  if (noise <= 0.0) return;
+  spread(open * config_.search_noise, open * config_.search_noise);
+}
+
+void Amcl::spread(double position, double yaw) {
+  if (position <= 0.0 && yaw <= 0.0) return;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
-    const double yaw = static_cast<double>(particles_.yaw[i]);
-    particles_.x[i] += static_cast<float>(random_.normal(0.0, noise));
-    particles_.y[i] += static_cast<float>(random_.normal(0.0, noise));
-    particles_.yaw[i] = static_cast<float>(normalize_angle(yaw + random_.normal(0.0, noise)));
+    const double turned = static_cast<double>(particles_.yaw[i]);
+    particles_.x[i] += static_cast<float>(random_.normal(0.0, position));
+    particles_.y[i] += static_cast<float>(random_.normal(0.0, position));
+    particles_.yaw[i] = static_cast<float>(normalize_angle(turned + random_.normal(0.0, yaw)));
   }
 }
 
-bool Amcl::weigh(const LaserScan& scan, const Pose2& laser_in_base) {
+bool Amcl::choose_beams(const LaserScan& scan, const Pose2& laser_in_base) {
   select_beams(scan, laser_in_base, config_.beams, config_.max_range, updates_, ends_);
-  if (ends_.size() < static_cast<std::size_t>(config_.min_beams)) return false;
-  field_.score(particles_, ends_, scores_);
+  return ends_.size() >= static_cast<std::size_t>(config_.min_beams);
+}
 
-  double fit = 0.0;
-  double total = 0.0;
-  for (std::size_t i = 0; i < particles_.size(); ++i) {
-    fit += static_cast<double>(particles_.weight[i] * std::exp(scores_[i]));
-    total += static_cast<double>(particles_.weight[i]);
-  }
-  temper(particles_.weight);
-  estimate_.fit = fit / total;
+void Amcl::weigh() {
+  field_.score(particles_, ends_, scores_);
+  estimate_.fit = mean_fit();
+  temper(particles_.weight, tracking_beams());
   // What fitted before the pose was found says nothing about how well scans fit there.
   estimate_.random_share =
       estimate_.localised ? recovery_.update(estimate_.fit) : config_.searching_share;
   if (free_space_.empty()) estimate_.random_share = 0.0;
-  return true;
 }
 
-void Amcl::temper(std::vector<float>& weights) {
+double Amcl::tracking_beams() const {
+  return estimate_.localised ? config_.independent_beams : config_.searching_beams;
+}
+
+void Amcl::temper(std::vector<float>& weights, double beams) {
   const float best = *std::max_element(scores_.begin(), scores_.end());
-  const double beams = estimate_.localised ? config_.independent_beams : config_.searching_beams;
   const auto worth = static_cast<float>(std::min(static_cast<double>(ends_.size()), beams));
   double total = 0.0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -129,21 +142,47 @@ void Amcl::temper(std::vector<float>& weights) {
   for (float& weight : weights) weight *= scale;
 }
 
-void Amcl::draw_fresh() {
+void Amcl::draw_fresh(double beams) {
   fresh_.clear();
   for (int i = 0; i < config_.recovery_candidates; ++i) {
     fresh_.push_back(free_space_.draw(random_), 1.0F);
   }
   field_.score(fresh_, ends_, scores_);
-  temper(fresh_.weight);
+  temper(fresh_.weight, beams);
 }
 
-void Amcl::settle(const Cluster& cluster) {
+/// Mean over the last scans of how well the particles fit, as they are weighed now; while the pose
+/// is open the scan at hand alone counts, for the particles were elsewhere before.
+void Amcl::watch_fit() {
+  const double fit = mean_fit();
+  if (mean_fit_ <= 0.0 || !estimate_.localised) mean_fit_ = fit;
+  mean_fit_ += config_.fit_rate * (fit - mean_fit_);
+}
+
+/// Of the scores at hand.
+double Amcl::mean_fit() const {
+  double fit = 0.0;
+  double total = 0.0;
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    fit += static_cast<double>(particles_.weight[i] * std::exp(scores_[i]));
+    total += static_cast<double>(particles_.weight[i]);
+  }
+  return fit / total;
+}
+
+void Amcl::settle(const Cluster& cluster, bool confirmed) {
   const double spread = position_stddev(cluster.pose);
   const bool was_localised = estimate_.localised;
   const double spread_limit = was_localised ? config_.lost_stddev : config_.localised_stddev;
   const double share_limit = config_.localised_share * (was_localised ? 0.5 : 1.0);
-  estimate_.localised = spread < spread_limit && cluster.share > share_limit;
+  const double fit_limit = config_.lost_fit * (was_localised ? 1.0 : 2.0);
+  const bool one_place = spread < spread_limit && cluster.share > share_limit && confirmed;
+  estimate_.doubt = mean_fit_ < fit_limit ? Doubt::kMisfit
+                    : one_place           ? Doubt::kNone
+                                          : Doubt::kSeveralPlaces;
+  estimate_.localised = estimate_.doubt == Doubt::kNone;
+  // What was believed on the way here is contradicted.
+  if (estimate_.doubt == Doubt::kMisfit) knows_one_place_ = true;
   if (estimate_.localised != was_localised) {
     settling_ = estimate_.localised ? config_.settle_updates : config_.standing_updates;
     recovery_.reset();
@@ -165,104 +204,121 @@ void Amcl::resample(const Cluster& cluster) {
   const bool uneven = 1.0 / sum_of_squares < config_.resample_share * count;
   const bool wrong_number = count > 1.5 * needed || count < needed / 1.5;
   if (!uneven && !wrong_number && estimate_.random_share <= 0.0) return;
-  if (estimate_.random_share > 0.0) draw_fresh();
+  if (estimate_.random_share > 0.0) draw_fresh(tracking_beams());
   resampler_.resample(particles_, estimate_.random_share, fresh_, random_, resampled_);
   std::swap(particles_, resampled_);
 }
 
-std::optional<Estimate> Amcl::update(const LaserScan& scan, const Pose2& laser_in_base,
-                                     const Pose2& base_in_odom) {
-  if (particles_.empty()) return std::nullopt;
-  const auto motion = motion_since_update(scan.stamp, base_in_odom);
-  if (!motion) return std::nullopt;
+void Amcl::weigh_in(const LaserScan& scan, const Pose2& laser_in_base, const Pose2& motion) {
+  predict(motion);
+  const bool weighed = choose_beams(scan, laser_in_base);
+  if (weighed) {
+    weigh();
+    watch_fit();
+    if (settling_ > 0) --settling_;
+  }
+  const Cluster cluster = clusters_.heaviest(particles_);
+  settle(cluster);
+  if (!weighed) return;
+  resample(cluster);
+  ++updates_;
+}
 
+/// One Metropolis step of every particle of the set, which leaves likelihood^beams as it is;
+/// scores_ are those of the set before and after.
+void Amcl::jiggle(ParticleSet& set, double noise, double beams) {
+  proposed_ = set;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const double yaw = static_cast<double>(set.yaw[i]) + random_.normal(0.0, noise);
+    proposed_.x[i] += static_cast<float>(random_.normal(0.0, noise));
+    proposed_.y[i] += static_cast<float>(random_.normal(0.0, noise));
+    proposed_.yaw[i] = static_cast<float>(normalize_angle(yaw));
+  }
+  field_.score(proposed_, ends_, proposed_scores_);
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const double gain = beams * static_cast<double>(proposed_scores_[i] - scores_[i]);
+    if (gain < 0.0 && random_.uniform() >= std::exp(gain)) continue;
+    set.copy_pose(i, proposed_);
+    scores_[i] = proposed_scores_[i];
+  }
+}
+
+/// Candidates from all over the map: chosen mildly by the scan, so that no place that it could be
+/// is missed, moved to where they fit best nearby, and only then weighed sharply.
+void Amcl::draw_annealed(double beams) {
+  draw_fresh(config_.searching_beams);
+  annealed_.clear();
+  double cumulative = 0.0;
+  std::size_t next = 0;
+  const double offset = random_.uniform();
+  for (int j = 0; j < kAnnealed; ++j) {
+    const double target = (j + offset) / kAnnealed;
+    while (next + 1 < fresh_.size() &&
+           cumulative + static_cast<double>(fresh_.weight[next]) < target) {
+      cumulative += static_cast<double>(fresh_.weight[next++]);
+    }
+    annealed_.push_back(fresh_.pose(next), 1.0F);
+  }
+  field_.score(annealed_, ends_, scores_);
+  for (int i = 0; i < kAnnealingSteps; ++i) {
+    const double part = static_cast<double>(i + 1) / kAnnealingSteps;
+    jiggle(annealed_, 0.15 * (1.0 - part) + 0.02, part * beams);
+  }
+  temper(annealed_.weight, beams - config_.searching_beams);
+}
+
+/// A step of the particles towards what the scans from this place say; see the class.
+void Amcl::search_standing() {
+  const double beams = std::min(static_cast<double>(ends_.size()), config_.standing_beams);
+  field_.score(particles_, ends_, scores_);
+  jiggle(particles_, config_.search_noise, beams);
+  watch_fit();
+  // One scan may favour one of two places that look alike by its noise, several do not.
+  const Cluster cluster = clusters_.heaviest(particles_);
+  const bool same_place = distance(cluster.pose.pose, estimate_.robot_in_map.pose) < kSamePlace;
+  confirmed_ = same_place && cluster.share > config_.localised_share ? confirmed_ + 1 : 0;
+  settle(cluster, confirmed_ >= kConfirmations);
+  if (!free_space_.empty() && !estimate_.localised) {
+    draw_annealed(beams);
+    resampler_.resample(particles_, kRenewed, annealed_, random_, resampled_);
+    std::swap(particles_, resampled_);
+  }
+  ++updates_;
+}
+
+std::optional<Estimate> Amcl::update(const LaserScan& scan, const Pose2& laser_in_base,
+                                     const OdometryFix& odometry) {
+  if (particles_.empty()) return std::nullopt;
+  const auto motion = motion_since_update(scan.stamp, odometry);
+  if (!motion) return std::nullopt;
+  const Pose2& base_in_odom = odometry.base_in_odom;
   const bool moved = std::hypot(motion->x, motion->y) >= config_.update_distance ||
                      std::abs(motion->yaw) >= config_.update_angle;
   estimate_.stamp = scan.stamp;
-  estimate_.updated = moved || settling_ > 0;
-  if (estimate_.updated) {
-    predict(*motion);
+  estimate_.updated = true;
+  if (moved || settling_ > 0) {
+    knows_one_place_ = knows_one_place_ && !moved;
+    weigh_in(scan, laser_in_base, *motion);
     base_in_odom_at_update_ = base_in_odom;
-    const bool weighed = weigh(scan, laser_in_base);
-    const Cluster cluster = clusters_.heaviest(particles_);
-    if (weighed && settling_ > 0) --settling_;
-    settle(cluster);
-    if (weighed) {
-      resample(cluster);
-      ++updates_;
-    }
-    estimate_.odom_in_map = estimate_.robot_in_map.pose * base_in_odom.inverse();
-    estimate_.particles = particles_.size();
+  } else if (!choose_beams(scan, laser_in_base)) {
+    estimate_.updated = false;
+  } else if (knows_one_place_ && !estimate_.localised) {
+    search_standing();
+  } else if (!estimate_.localised) {
+    estimate_.updated = false;  // what was seen on the way must not be forgotten
   } else {
-    estimate_.robot_in_map.pose = estimate_.odom_in_map * base_in_odom;
+    field_.score(particles_, ends_, scores_);
+    watch_fit();
+    estimate_.updated = mean_fit_ < config_.lost_fit;
+    if (estimate_.updated) settle(clusters_.heaviest(particles_));
   }
+  if (estimate_.updated) {
+    const Pose2 since_then = base_in_odom_at_update_->inverse() * base_in_odom;
+    estimate_.odom_in_map = estimate_.robot_in_map.pose * since_then * base_in_odom.inverse();
+    estimate_.particles = particles_.size();
+  }
+  estimate_.robot_in_map.pose = estimate_.odom_in_map * base_in_odom;
   return estimate_;
-}
-
-void AmclConfig::describe(config::Fields& fields) {
-  fields.number(
-      "update_distance", update_distance,
-      {.unit = "m", .help = "driven until the next scan is weighed in", .min = 0, .max = 5});
-  fields.number(
-      "update_angle", update_angle,
-      {.unit = "rad", .help = "turned until the next scan is weighed in", .min = 0, .max = 3});
-  fields.integer("beams", beams, {.help = "of a scan, at most", .min = 4, .max = 10000});
-  fields.number("max_range", max_range,
-                {.unit = "m", .help = "longer beams are not used", .min = 0.5, .max = 500});
-  fields.integer("min_beams", min_beams,
-                 {.help = "fewer usable beams say nothing", .min = 1, .max = 10000});
-  fields.number("independent_beams", independent_beams,
-                {.help = "so many independent beams a scan is worth", .min = 0.5, .max = 10000});
-  fields.number("searching_beams", searching_beams,
-                {.help = "the same while the pose is open", .min = 0.5, .max = 10000});
-  fields.number("resample_share", resample_share,
-                {.help = "resample below this share of effective particles", .min = 0, .max = 1});
-  fields.number(
-      "localised_stddev", localised_stddev,
-      {.unit = "m", .help = "the pose is known from this spread on", .min = 0.01, .max = 10});
-  fields.number("lost_stddev", lost_stddev,
-                {.unit = "m",
-                 .help = "the pose is no longer known from this spread on",
-                 .min = 0.01,
-                 .max = 20});
-  fields.number("localised_share", localised_share,
-                {.help = "weight the heaviest cluster must hold", .min = 0, .max = 1});
-  fields.number("search_noise", search_noise,
-                {.unit = "m, rad",
-                 .help = "spread added an update while the pose is not known",
-                 .min = 0,
-                 .max = 1});
-  fields.integer("settle_updates", settle_updates,
-                 {.help = "scans weighed in after the pose was found, even if the robot stands",
-                  .min = 0,
-                  .max = 1000});
-  fields.number("searching_share", searching_share,
-                {.help = "of the particles drawn anew at each update while the pose is open",
-                 .min = 0,
-                 .max = 0.9});
-  fields.integer("standing_updates", standing_updates,
-                 {.help = "scans weighed in while the pose is open and the robot stands",
-                  .min = 1,
-                  .max = 1000});
-  fields.integer("scattered_particles", scattered_particles,
-                 {.help = "spread over free space for global localisation", .min = 10, .max = 1e7});
-  fields.integer(
-      "recovery_candidates", recovery_candidates,
-      {.help = "poses tried against a scan to draw recovery particles from", .min = 1, .max = 1e7});
-  fields.number(
-      "plausible_speed", plausible_speed,
-      {.unit = "m/s, rad/s", .help = "faster odometry has been restarted", .min = 0.1, .max = 100});
-  fields.section("motion", motion);
-  fields.section("field", field);
-  fields.section("kld", kld);
-  fields.section("recovery", recovery);
-}
-
-void AmclConfig::validate() const {
-  kld.validate();
-  if (lost_stddev <= localised_stddev) {
-    throw config::Error("lost_stddev must be above localised_stddev");
-  }
 }
 
 }  // namespace coop::amcl

@@ -3,14 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/arc.hpp"
+
 namespace coop::amcl {
 namespace {
-
-/// Chord over arc length of an arc that turns by 2 * half_turn.
-double chord_over_arc(double half_turn) {
-  return std::abs(half_turn) < 1e-4 ? 1.0 - half_turn * half_turn / 6.0
-                                    : std::sin(half_turn) / half_turn;
-}
 
 double squared(double value) {
   return value * value;

@@ -25,6 +25,11 @@ struct ParticleSet {
   void clear() {
     for (auto* column : {&x, &y, &yaw, &weight}) column->clear();
   }
+  void copy_pose(std::size_t i, const ParticleSet& from) {
+    x[i] = from.x[i];
+    y[i] = from.y[i];
+    yaw[i] = from.yaw[i];
+  }
   void push_back(const Pose2& pose, float w) {
     x.push_back(static_cast<float>(pose.x));
     y.push_back(static_cast<float>(pose.y));

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/hash.hpp"
+
 namespace coop::amcl {
 namespace {
 
@@ -25,16 +27,15 @@ double squared(double value) {
 }  // namespace
 
 std::uint64_t hash_of(const OccupancyGrid& map) {
-  std::uint64_t hash = 0xCBF29CE484222325ULL;
-  const auto mix = [&hash](std::uint64_t value) { hash = (hash ^ value) * 0x100000001B3ULL; };
-  mix(static_cast<std::uint64_t>(map.geometry.width));
-  mix(static_cast<std::uint64_t>(map.geometry.height));
+  Fnv1a hash;
+  hash.add_word(static_cast<std::uint64_t>(map.geometry.width));
+  hash.add_word(static_cast<std::uint64_t>(map.geometry.height));
   for (const double value :
        {map.geometry.resolution, map.geometry.origin.x(), map.geometry.origin.y()}) {
-    mix(static_cast<std::uint64_t>(std::llround(value * 1e6)));
+    hash.add_word(static_cast<std::uint64_t>(std::llround(value * 1e6)));
   }
-  for (const std::int8_t cell : map.cells) mix(static_cast<std::uint8_t>(cell));
-  return hash;
+  for (const std::int8_t cell : map.cells) hash.add(static_cast<std::uint8_t>(cell));
+  return hash.value();
 }
 
 std::string to_text(const SavedPose& saved) {

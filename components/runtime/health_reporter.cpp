@@ -92,6 +92,11 @@ void HealthReporter::beat() {
   status.rss_bytes(resident_bytes());
   status.host(host_);
   writer_->write(&status);
+  last_beat_ = std::chrono::steady_clock::now();
+}
+
+void HealthReporter::beat_if_due() {
+  if (std::chrono::steady_clock::now() - last_beat_ >= std::chrono::milliseconds(500)) beat();
 }
 
 }  // namespace coop::runtime

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -14,6 +15,8 @@ class HealthReporter {
 
   void report(Health health, const std::string& detail);
   void beat();
+  /// Where the last beat is half a second ago.
+  void beat_if_due();
   [[nodiscard]] Health health() const { return health_; }
   [[nodiscard]] const std::string& detail() const { return detail_; }
 
@@ -24,6 +27,7 @@ class HealthReporter {
   std::shared_ptr<Writer> writer_;
   Health health_ = Health::kStarting;
   std::string detail_;
+  std::chrono::steady_clock::time_point last_beat_{};
 };
 
 /// FNV-1a over the configuration file's text and the settings; tells whether two processes run with

@@ -179,6 +179,10 @@ void Node::set_degraded(const std::string& reason) {
   impl_->health->report(Health::kDegraded, reason);
 }
 
+void Node::keep_alive() {
+  impl_->health->beat_if_due();
+}
+
 Health Node::health() const {
   return impl_->health->health();
 }

@@ -120,6 +120,9 @@ class Node {
   void set_degraded(const std::string& reason);
   [[nodiscard]] Health health() const;
 
+  /// From within one callback that works for long, often: the heart beats on.
+  void keep_alive();
+
   /// Ends the program with exit code 0 after an orderly stop (a log played to its end).
   void finish(const std::string& reason);
   /// Ends the program with exit code 1 after an orderly stop.

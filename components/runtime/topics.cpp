@@ -71,7 +71,7 @@ constexpr auto kTopics = std::to_array<TopicInfo>({
      "dwa, global_planner, person", "state of the mission and of every egg"},
     {"navigation_status", "coop_msgs/NavigationStatus", kLatched, 0, "dwa, global_planner",
      "global_planner, sequencer", "what each navigator does about its goal"},
-    {"odom", "nav_msgs/Odometry", kStream, 50, kBase, "dwa, slam",
+    {"odom", "nav_msgs/Odometry", kStream, 50, kBase, "amcl, dwa, slam",
      "base_link in odom, and its velocity"},
     {"particle_cloud", "geometry_msgs/PoseArray", kStream, 0, "amcl", "person",
      "particles of the filter"},

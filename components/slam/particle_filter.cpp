@@ -24,6 +24,10 @@ void SlamConfig::describe(config::Fields& fields) {
   fields.number(
       "resample_threshold", resample_threshold,
       {.help = "resampled when a smaller share of the particles counts", .min = 0.0, .max = 1.0});
+  fields.number("found_again", found_again,
+                {.help = "mean log-likelihood a beam that tells the place after a restart",
+                 .min = -10.0,
+                 .max = 0.0});
   fields.number("occupied_threshold", occupied_threshold,
                 {.help = "share of hits from which a cell is occupied", .min = 0.01, .max = 1.0});
   fields.section("scan", scan);
@@ -43,16 +47,22 @@ ParticleFilter::ParticleFilter(const SlamConfig& config, std::uint64_t seed, For
   std::iota(parents_.begin(), parents_.end(), 0U);
 }
 
-ScanOutcome ParticleFilter::update(const LaserScan& scan, const Pose2& base_in_odom,
+ScanOutcome ParticleFilter::update(const LaserScan& scan, const OdometryFix& odometry,
                                    const Pose2& laser_in_base, const Pose2& sweep) {
   ScanOutcome outcome;
+  const Pose2& base_in_odom = odometry.base_in_odom;
   const bool first = steps_.empty();
+  const bool restarted = !first && piece_ != odometry.piece;
   const Pose2 motion = first ? Pose2{} : steps_.back().base_in_odom.inverse() * base_in_odom;
-  if (!first && !moved_enough(scan, motion)) return outcome;
+  if (!first && !restarted && !moved_enough(scan, motion)) return outcome;
   const ScanPoints points = to_points(scan, laser_in_base, sweep, config_.scan);
   if (points.empty()) return outcome;
+  lost_ = !first && !move_all(points, motion, restarted);
+  outcome.lost = lost_;
+  failures_ = lost_ ? failures_ + 1 : 0;
+  if (lost_) return outcome;
+  piece_ = odometry.piece;
   workers_.run(particles_.size(), [&](std::size_t i, std::size_t worker) {
-    if (!first) move(particles_[i], streams_[i], scratch_[worker], points, motion);
     scratch_[worker].updater.integrate(particles_[i].map, points, particles_[i].base_in_map);
   });
   Step step{scan.stamp, base_in_odom, {}, parents_};
@@ -72,11 +82,30 @@ bool ParticleFilter::moved_enough(const LaserScan& scan, const Pose2& motion) co
          (config_.max_interval > 0.0 && interval >= config_.max_interval);
 }
 
+bool ParticleFilter::move_all(const ScanPoints& points, const Pose2& motion, bool restarted) {
+  const Eigen::Vector3d stddev = motion_stddev(config_.motion, motion, restarted);
+  const std::vector<Particle> before = restarted ? particles_ : std::vector<Particle>();
+  workers_.run(particles_.size(), [&](std::size_t i, std::size_t worker) {
+    move(particles_[i], streams_[i], scratch_[worker], points, motion, stddev);
+  });
+  if (!restarted || is_found()) return true;
+  particles_ = before;
+  return false;
+}
+
+bool ParticleFilter::is_found() const {
+  // Who looks in many places must be stricter: one of them fits by chance.
+  const double least = config_.found_again + (failures_ > 0 ? 0.1 : 0.0);
+  return std::ranges::any_of(particles_, [least](const Particle& particle) {
+    return particle.matched && particle.mean_likelihood >= least;
+  });
+}
+
 void ParticleFilter::move(Particle& particle, RandomStream& random, Scratch& scratch,
-                          const ScanPoints& points, const Pose2& motion) {
-  const Pose2 predicted = particle.base_in_map * motion;
-  const Proposal proposal =
-      scratch.matcher.match(particle.map, points, predicted, motion_stddev(config_.motion, motion));
+                          const ScanPoints& points, const Pose2& motion,
+                          const Eigen::Vector3d& stddev) const {
+  const Pose2 predicted = particle.base_in_map * motion * search_offset(random);
+  const Proposal proposal = scratch.matcher.match(particle.map, points, predicted, stddev);
   const Eigen::Matrix3d root = proposal.covariance.llt().matrixL();
   const double a = random.normal();
   const double b = random.normal();
@@ -86,6 +115,7 @@ void ParticleFilter::move(Particle& particle, RandomStream& random, Scratch& scr
   particle.log_weight += proposal.log_evidence;
   particle.total_log_weight += proposal.log_evidence;
   particle.mean_likelihood = proposal.mean_likelihood;
+  particle.matched = proposal.matched;
 }
 
 bool ParticleFilter::resample_if_needed() {
@@ -105,6 +135,31 @@ bool ParticleFilter::resample_if_needed() {
                          [](std::size_t source) { return static_cast<std::uint32_t>(source); });
   std::ranges::fill(weights_, 1.0 / count);
   return true;
+}
+
+/// Where a particle looks for the robot that was not found: each somewhere else.
+Pose2 ParticleFilter::search_offset(RandomStream& random) const {
+  constexpr int kMostWidenings = 5;
+  if (failures_ == 0) return {};
+  const double widenings = std::min(failures_, kMostWidenings);
+  const double position = widenings * config_.motion.restart_position;
+  const double yaw = std::min(widenings * config_.motion.restart_yaw, 1.0);
+  const double x = random.normal(0.0, position);
+  const double y = random.normal(0.0, position);
+  return {x, y, random.normal(0.0, yaw)};
+}
+
+void ParticleFilter::resume(const TileMap& map, const std::vector<TrajectoryNode>& nodes) {
+  particles_.assign(particles_.size(), Particle{nodes.back().base_in_map, map});
+  std::ranges::fill(weights_, 1.0 / static_cast<double>(particles_.size()));
+  std::iota(parents_.begin(), parents_.end(), 0U);
+  steps_.clear();
+  for (const TrajectoryNode& node : nodes) {
+    steps_.push_back({node.stamp, node.base_in_odom,
+                      std::vector<Pose2>(particles_.size(), node.base_in_map), parents_});
+  }
+  piece_.reset();
+  lost_ = true;
 }
 
 std::size_t ParticleFilter::best() const {

@@ -5,6 +5,7 @@
 
 #include "core/config/fields.hpp"
 #include "core/grid.hpp"
+#include "core/odometry_track.hpp"
 #include "core/random.hpp"
 #include "core/scan.hpp"
 #include "slam/fork_join.hpp"
@@ -24,6 +25,9 @@ struct SlamConfig {
   double min_rotation = 0.15;    ///< rad
   double max_interval = 10.0;  ///< s, a scan is used after this time even without motion; 0: never
   double resample_threshold = 0.5;  ///< of the particles; resampled when fewer count effectively
+  /// Mean log-likelihood a beam from which a scan is found again in the map after a restart; -2.3
+  /// would be no beam at a wall, a third of the beams elsewhere give -0.8.
+  double found_again = -0.8;
   double occupied_threshold =
       0.25;  ///< share of hits from which a cell of the published map is occupied
   ScanPointsConfig scan;
@@ -36,6 +40,7 @@ struct SlamConfig {
 /// What became of one scan.
 struct ScanOutcome {
   bool used = false;  ///< false: too little motion since the last one
+  bool lost = false;  ///< not used: after a restart of odometry it fits nowhere near the last pose
   bool resampled = false;
   double effective_particles = 0.0;
   double mean_likelihood = 0.0;  ///< log-likelihood a beam, best particle
@@ -49,9 +54,17 @@ class ParticleFilter {
 
   /// The next scan, with odometry's pose of base_link at its stamp; `laser_in_base` is the mount.
   /// Scans come in the order of their stamps. The first defines the map: its base_link pose is the
-  /// map's origin.
-  ScanOutcome update(const LaserScan& scan, const Pose2& base_in_odom, const Pose2& laser_in_base,
+  /// map's origin. Where odometry was restarted since the last scan used, the robot is sought
+  /// around the pose that follows from what odometry knows, wider with every scan that does not
+  /// find it, and nothing is drawn until it is found.
+  ScanOutcome update(const LaserScan& scan, const OdometryFix& odometry, const Pose2& laser_in_base,
                      const Pose2& sweep = {});
+
+  /// Goes on with a map that another filter made and the way it took, newest last and not empty.
+  /// The robot is lost until a scan finds it near the end of that way.
+  void resume(const TileMap& map, const std::vector<TrajectoryNode>& nodes);
+  /// Where the robot is in the map is not known since odometry was restarted, or resume().
+  [[nodiscard]] bool lost() const { return lost_; }
 
   [[nodiscard]] bool has_map() const { return !steps_.empty(); }
   /// Particle with the largest weight over its whole way.
@@ -59,6 +72,8 @@ class ParticleFilter {
   /// Of the best particle. Before the first scan: identity.
   [[nodiscard]] Pose2 odom_in_map() const;
   [[nodiscard]] OccupancyGrid map() const;
+  /// Of the best particle; a copy of it shares the tiles, also with another thread.
+  [[nodiscard]] const TileMap& tiles() const { return particles_[best()].map; }
   /// Of the best particle, a node for each scan used.
   [[nodiscard]] std::vector<TrajectoryNode> trajectory() const;
   [[nodiscard]] const std::vector<double>& weights() const { return weights_; }
@@ -70,6 +85,7 @@ class ParticleFilter {
     double log_weight = 0.0;  ///< since the last resampling
     double total_log_weight = 0.0;
     double mean_likelihood = 0.0;
+    bool matched = false;
   };
   /// One scan used: pose of every particle then, and which particle of the step before it descends
   /// from.
@@ -85,8 +101,13 @@ class ParticleFilter {
   };
 
   [[nodiscard]] bool moved_enough(const LaserScan& scan, const Pose2& motion) const;
+  /// Moves all; answers false and moves none where odometry was restarted and the scan fits
+  /// nowhere.
+  bool move_all(const ScanPoints& points, const Pose2& motion, bool restarted);
   void move(Particle& particle, RandomStream& random, Scratch& scratch, const ScanPoints& points,
-            const Pose2& motion);
+            const Pose2& motion, const Eigen::Vector3d& stddev) const;
+  [[nodiscard]] Pose2 search_offset(RandomStream& random) const;
+  [[nodiscard]] bool is_found() const;
   bool resample_if_needed();
 
   SlamConfig config_;
@@ -99,6 +120,9 @@ class ParticleFilter {
   std::vector<double> weights_;
   std::vector<std::uint32_t> parents_;
   std::vector<Step> steps_;
+  std::optional<std::uint32_t> piece_;  ///< of odometry, at the last scan used; nothing: unknown
+  bool lost_ = false;
+  int failures_ = 0;  ///< scans on end that did not find the robot
 };
 
 }  // namespace coop::slam

@@ -103,18 +103,14 @@ struct Box {
 
 OccupancyGrid TileMap::to_occupancy_grid(double threshold, int margin) const {
   const auto for_each_known = [this](auto&& visit) {
-    for (std::size_t i = 0; i < tiles_.size(); ++i) {
-      const Tile* tile = tiles_[i].get();
-      if (!tile) continue;
-      const int corner_x = (first_x_ + static_cast<int>(i) % columns_) << kTileShift;
-      const int corner_y = (first_y_ + static_cast<int>(i) / columns_) << kTileShift;
+    for_each_tile([&](Cell corner, const Tile& tile) {
       for (int y = 0; y < kTileSide; ++y) {
         for (int x = 0; x < kTileSide; ++x) {
-          const MapCell& cell = tile->at(x, y);
-          if (cell.is_known()) visit(Cell{corner_x + x, corner_y + y}, cell);
+          const MapCell& cell = tile.at(x, y);
+          if (cell.is_known()) visit(Cell{corner.x + x, corner.y + y}, cell);
         }
       }
-    }
+    });
   };
   Box box;
   for_each_known([&](Cell where, const MapCell&) { box.include(where); });

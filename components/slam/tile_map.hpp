@@ -94,6 +94,19 @@ class TileMap {
   /// Tile that holds the cell, for writing; the map grows as needed.
   Tile& writable_tile_at(Cell cell);
 
+  /// Calls visit(corner, tile) for every tile there is; `corner` is its first cell.
+  template <class Visit>
+  void for_each_tile(Visit&& visit) const {
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      const Tile* tile = tiles_[i].get();
+      if (!tile) continue;
+      const int slot_number = static_cast<int>(i);
+      visit(Cell{(first_x_ + slot_number % columns_) << kTileShift,
+                 (first_y_ + slot_number / columns_) << kTileShift},
+            *tile);
+    }
+  }
+
   [[nodiscard]] std::size_t tile_count() const;
   /// Tiles that other maps hold as well.
   [[nodiscard]] std::size_t shared_tile_count() const;

@@ -2,9 +2,7 @@
 
 #include <array>
 #include <cstdio>
-#include <stdexcept>
 
-#include "core/carmen/carmen_log.hpp"
 #include "core/carmen/fields.hpp"
 
 namespace coop::slam {
@@ -24,21 +22,12 @@ std::string to_text(std::span<const StampedPose2> trajectory) {
 
 std::vector<StampedPose2> parse_trajectory(std::string_view text, const std::string& name) {
   std::vector<StampedPose2> trajectory;
-  for (int number = 1; !text.empty(); ++number) {
-    const auto end = text.find('\n');
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (line.empty() || line.front() == '#') continue;
-    try {
-      carmen::FieldCursor fields(line);
-      StampedPose2 entry;
-      entry.stamp = fields.stamp("the stamp");
-      entry.pose = fields.pose("pose");
-      trajectory.push_back(entry);
-    } catch (const carmen::FormatError& error) {
-      throw std::runtime_error(name + ":" + std::to_string(number) + ": " + error.what());
-    }
-  }
+  carmen::for_each_line(text, name, [&](carmen::FieldCursor& fields) {
+    StampedPose2 entry;
+    entry.stamp = fields.stamp("the stamp");
+    entry.pose = fields.pose("pose");
+    trajectory.push_back(entry);
+  });
   return trajectory;
 }
 

@@ -6,7 +6,6 @@
 #include "core/atomic_file.hpp"
 #include "core/config/error.hpp"
 #include "core/map/map_file.hpp"
-#include "runtime/scan_queue.hpp"
 
 namespace coop::amcl {
 
@@ -16,6 +15,8 @@ using runtime::Qos;
 namespace {
 
 constexpr auto kPatience = std::chrono::seconds(1);
+constexpr std::size_t kMostScansWaiting = 20;
+constexpr std::size_t kMostReadings = 2000;  // 40 s at 50 Hz, and thinned what was before
 constexpr auto kScanAge = std::chrono::seconds(1);
 
 OccupancyGrid load(const AmclNodeConfig& config) {
@@ -57,6 +58,7 @@ void AmclNodeConfig::describe(config::Fields& fields) {
                 {.unit = "s", .help = "between two poses saved", .min = 0.1, .max = 600});
   fields.integer("cloud_size", cloud_size,
                  {.help = "particles of a cloud, at most", .min = 1, .max = 100000});
+  fields.section("odometry_restart", odometry_restart);
   amcl.describe(fields);
 }
 
@@ -73,7 +75,8 @@ AmclNode::AmclNode(runtime::Node& node, const Config& config, const OccupancyGri
       filter_(config.amcl, map, node.options().seed),
       map_hash_(hash_of(map)),
       transforms_(node.transforms()),
-      scans_("odom", kPatience, 20),
+      odometry_(kMostReadings, config.odometry_restart),
+      scans_({.patience = kPatience, .limit = kMostScansWaiting, .whole_sweep = false}),
       map_publisher_(node.advertise<nav_msgs::msg::OccupancyGrid>("map", Qos::kStateLatched)),
       pose_publisher_(node.advertise<PoseWithCovarianceStamped>("amcl_pose", Qos::kStateLatched)),
       cloud_publisher_(
@@ -86,15 +89,26 @@ AmclNode::AmclNode(runtime::Node& node, const Config& config, const OccupancyGri
     publish_transform();
   });
   node.every(seconds(config.cloud_period), [this] { publish_cloud(); });
+  node.on_clock_jump([this] { handle_clock_jump(); });
 }
 
 void AmclNode::subscribe() {
-  node_.subscribe<sensor_msgs::msg::LaserScan>(
-      "scan", Qos::kSensorStream,
-      [this, put = runtime::put_into(scans_)](const sensor_msgs::msg::LaserScan& message) {
-        put(message);
-        process_scans();
+  node_.subscribe<nav_msgs::msg::Odometry>(
+      "odom", Qos::kSensorStream,
+      [this](const nav_msgs::msg::Odometry& message, const runtime::MessageInfo& info) {
+        const auto odometry = conversions::from_msg(message);
+        if (!odometry) return;
+        const auto& [stamp, base_in_odom, velocity] = odometry->odometry;
+        if (odometry_.insert({stamp, base_in_odom}, info.writer))
+          node_.log().warning("odometry was restarted: goes on from the last pose");
       });
+  node_.subscribe<sensor_msgs::msg::LaserScan>("scan", Qos::kSensorStream,
+                                               [this](const sensor_msgs::msg::LaserScan& message) {
+                                                 auto scan = conversions::from_msg(message);
+                                                 if (!scan) return;
+                                                 scans_.push(std::move(*scan));
+                                                 process_scans();
+                                               });
   node_.subscribe<PoseWithCovarianceStamped>(
       "initialpose", Qos::kEvent, [this](const PoseWithCovarianceStamped& message) {
         const auto pose = conversions::from_msg(message);
@@ -140,30 +154,45 @@ void AmclNode::begin(Time now, const Pose2& base_in_odom) {
 }
 
 void AmclNode::process_scans() {
-  scans_.process(transforms_, node_.now(), [this](const LaserScan& scan, const Pose3& base_pose) {
-    const auto laser_in_base = transforms_.lookup("base_link", scan.frame_id, scan.stamp);
-    if (!laser_in_base) return;
-    const Pose2 base_in_odom = to_pose2(base_pose);
-    last_scan_ = scan.stamp;
-    if (!begun_) begin(scan.stamp, base_in_odom);
-    const auto estimate = filter_.update(scan, to_pose2(*laser_in_base), base_in_odom);
+  while (const auto located = scans_.next(odometry_, transforms_, node_.now())) {
+    const Time stamp = located->scan.stamp;
+    const Pose2 base_in_odom =
+        odometry_.odom_in_track().inverse() * located->base_in_track.base_in_odom;
+    last_scan_ = stamp;
+    if (!begun_) begin(stamp, base_in_odom);
+    const auto estimate =
+        filter_.update(located->scan, located->laser_in_base, located->base_in_track);
     if (estimate) take(*estimate, base_in_odom);
-  });
+  }
+  report_health();
+}
+
+void AmclNode::report_health() {
   if (last_scan_ == Time{} || node_.now() - last_scan_ > kScanAge) {
     node_.set_degraded("no scan with its odometry");
-  } else if (!filter_.localised()) {
-    node_.set_degraded("not localised");
-  } else {
+  } else if (filter_.localised()) {
     node_.set_ready();
+  } else if (doubt_ == Doubt::kMisfit) {
+    node_.set_degraded("not localised: the scans do not fit the map at the pose, searching");
+  } else {
+    node_.set_degraded("not localised: more than one place is possible");
   }
 }
 
+void AmclNode::handle_clock_jump() {
+  if (last_scan_ == Time{} || node_.now() >= last_scan_) return;
+  odometry_.clear();
+  scans_.clear();
+  last_scan_ = saved_ = Time{};
+}
+
 void AmclNode::take(const Estimate& estimate, const Pose2& base_in_odom) {
+  doubt_ = estimate.doubt;
   if (!estimate.localised) {
-    odom_in_map_.reset();
+    track_in_map_.reset();
     return;
   }
-  odom_in_map_ = estimate.odom_in_map;
+  track_in_map_ = estimate.odom_in_map;
   if (estimate.updated) {
     pose_publisher_.publish(
         conversions::to_msg(Stamped<PoseEstimate>{estimate.stamp, "map", estimate.robot_in_map}));
@@ -186,9 +215,9 @@ void AmclNode::save_pose(const Estimate& estimate, const Pose2& base_in_odom) {
 }
 
 void AmclNode::publish_transform() {
-  if (!odom_in_map_) return;
+  if (!track_in_map_) return;
   node_.publish_transform("map", "odom", node_.now() + seconds(config_.transform_ahead),
-                          *odom_in_map_);
+                          *track_in_map_ * odometry_.odom_in_track());
 }
 
 void AmclNode::publish_cloud() {

@@ -4,11 +4,13 @@
 
 #include "amcl/amcl.hpp"
 #include "amcl/saved_pose.hpp"
+#include "core/odometry_track.hpp"
+#include "core/scan_queue.hpp"
 #include "geometry_msgs/msg/PoseArray.h"
 #include "geometry_msgs/msg/PoseWithCovarianceStamped.h"
 #include "nav_msgs/msg/OccupancyGrid.h"
+#include "nav_msgs/msg/Odometry.h"
 #include "runtime/node.hpp"
-#include "runtime/stamped_queue.hpp"
 
 namespace coop::amcl {
 
@@ -33,6 +35,7 @@ struct AmclNodeConfig {
   double cloud_period = 0.5;  ///< s between two particle clouds
   double save_period = 1.0;   ///< s between two poses saved to disk
   int cloud_size = 500;       ///< particles of a cloud, at most
+  OdometryRestart odometry_restart;
   AmclConfig amcl;
 
   void describe(config::Fields& fields);
@@ -51,6 +54,8 @@ class AmclNode {
   AmclNode(runtime::Node& node, const Config& config, const OccupancyGrid& map);
   void subscribe();
   void begin(Time now, const Pose2& base_in_odom);
+  void handle_clock_jump();
+  void report_health();
   void process_scans();
   void take(const Estimate& estimate, const Pose2& base_in_odom);
   void publish_transform();
@@ -63,12 +68,13 @@ class AmclNode {
   Amcl filter_;
   std::uint64_t map_hash_;
   const TransformBuffer& transforms_;
-  runtime::StampedQueue<LaserScan> scans_;
+  OdometryTrack odometry_;
+  ScanQueue scans_;
   bool begun_ = false;
-  std::optional<Pose2> odom_in_map_;
-  Time cloud_published_{};
+  std::optional<Pose2> track_in_map_;  ///< while the pose is known
   Time saved_{};
   Time last_scan_{};
+  Doubt doubt_ = Doubt::kSeveralPlaces;
   runtime::Publisher<nav_msgs::msg::OccupancyGrid> map_publisher_;
   runtime::Publisher<geometry_msgs::msg::PoseWithCovarianceStamped> pose_publisher_;
   runtime::Publisher<geometry_msgs::msg::PoseArray> cloud_publisher_;

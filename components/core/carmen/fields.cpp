@@ -108,4 +108,20 @@ std::vector<float> FieldCursor::values(std::string_view what) {
   return values;
 }
 
+void for_each_line(std::string_view text, const std::string& name,
+                   const std::function<void(FieldCursor&)>& read) {
+  for (int number = 1; !text.empty(); ++number) {
+    const auto end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (line.empty() || line.front() == '#') continue;
+    try {
+      FieldCursor fields(line);
+      read(fields);
+    } catch (const FormatError& error) {
+      throw std::runtime_error(name + ":" + std::to_string(number) + ": " + error.what());
+    }
+  }
+}
+
 }  // namespace coop::carmen

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,6 +27,11 @@ class FieldCursor {
  private:
   std::string_view rest_;
 };
+
+/// Calls `read` with the fields of each line that is neither empty nor a comment (#). Its
+/// FormatError comes out as std::runtime_error `name:line: ...`.
+void for_each_line(std::string_view text, const std::string& name,
+                   const std::function<void(FieldCursor&)>& read);
 
 /// The number that the whole text is, or nothing.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);

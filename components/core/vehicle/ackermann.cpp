@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/arc.hpp"
+
 namespace coop::vehicle {
 
 double curvature_of(const AckermannGeometry& base, double steering) {
@@ -45,7 +47,7 @@ Pose2 advance_along_arc(const Pose2& start, double distance, double turn) {
   // The chord of an arc is distance * sin(turn/2) / (turn/2), along the mean heading: no division
   // by a small turn.
   const double half = 0.5 * turn;
-  const double shrink = std::abs(half) < 1e-4 ? 1.0 - half * half / 6.0 : std::sin(half) / half;
+  const double shrink = chord_over_arc(half);
   const double heading = start.yaw + half;
   return {start.x + distance * shrink * std::cos(heading),
           start.y + distance * shrink * std::sin(heading), normalize_angle(start.yaw + turn)};

@@ -18,45 +18,29 @@ namespace {
 
 constexpr auto kPeriod = std::chrono::milliseconds(20);
 constexpr int kScansPerCall = 4;
-constexpr std::size_t kMaxWaiting = 100'000;
+constexpr std::size_t kMostReadings = 4'000'000;     // a day at 50 Hz
+constexpr std::size_t kMostScansWaiting = 100;       // 10 s of a live stream
+constexpr std::size_t kMostScansOfLog = 100'000;     // of a log, none is to be left out
+constexpr std::size_t kScansToFindThePlaceIn = 100;  // in the map of a session
 constexpr auto kComplaintPeriod = std::chrono::seconds(10);
 
 }  // namespace
-
-void SlamNodeConfig::describe(config::Fields& fields) {
-  fields.text(
-      "save_path", save_path,
-      {.help =
-           "map and trajectory at exit: <path>.pgm, .yaml and _trajectory.txt; empty: not saved"});
-  fields.integer(
-      "threads", threads,
-      {.help = "that share the particles; the result does not depend on it", .min = 1, .max = 64});
-  fields.number("map_period", map_period,
-                {.unit = "s", .help = "between maps, while they change", .min = 0.1, .max = 600});
-  fields.number("transform_period", transform_period,
-                {.unit = "s", .help = "between map -> odom", .min = 0.01, .max = 0.1});
-  fields.number("transform_tolerance", transform_tolerance,
-                {.unit = "s", .help = "map -> odom is dated ahead by", .min = 0.0, .max = 1.0});
-  fields.number(
-      "scan_timeout", scan_timeout,
-      {.unit = "s", .help = "without a scan until degraded; 0: never", .min = 0.0, .max = 3600});
-  fields.number("odometry_patience", odometry_patience,
-                {.unit = "s",
-                 .help = "a scan waits for its odometry; with reliable streams for ever",
-                 .min = 0.1,
-                 .max = 600});
-  slam.describe(fields);
-}
 
 SlamNode::SlamNode(runtime::Node& node, const Config& config)
     : node_(node),
       config_(config),
       workers_(config.threads),
       transforms_(node.transforms()),
+      odometry_(kMostReadings, config.odometry_restart),
+      waiting_({.patience = node.options().reliable_streams ? Duration::max()
+                                                            : seconds(config.odometry_patience),
+                .limit = node.options().reliable_streams ? kMostScansOfLog : kMostScansWaiting}),
+      keeper_(config.session.empty() ? "" : node.options().run_dir / config.session),
       map_publisher_(node.advertise<nav_msgs::msg::OccupancyGrid>("map", Qos::kStateLatched)),
       result_publisher_(
           node.advertise<coop_msgs::msg::SaveMapResult>("save_map_result", Qos::kEvent)) {
   start_anew();
+  if (config.resume) resume();
   subscribe();
   node.every(kPeriod, [this] {
     clock_ = node_.now();
@@ -66,6 +50,7 @@ SlamNode::SlamNode(runtime::Node& node, const Config& config)
   node.every(seconds(config.transform_period), [this] { publish_transform(); });
   node.every(seconds(config.map_period), [this] { publish_map(); });
   node.every(std::chrono::milliseconds(500), [this] { report_health(); });
+  node.every(seconds(config.session_period), [this] { keep_session(false); });
   node.on_clock_jump([this] { handle_clock_jump(); });
   node.on_stop([this] { finish(); });
 }
@@ -83,14 +68,64 @@ void SlamNode::start_anew() {
   waiting_.clear();
   last_scan_ = Time{};
   newest_scan_ = Time{};
+  resumed_ = false;
+  lost_ = 0;
+}
+
+void SlamNode::resume() {
+  const auto found = keeper_.load();
+  if (!found) return;
+  const Result<Session>& session = *found;
+  if (!session || session->map.resolution() != config_.slam.resolution) {
+    node_.log().warning("the map starts anew: {} {}", keeper_.path().string(),
+                        session ? "has another resolution" : session.error());
+    return;
+  }
+  filter_->resume(session->map, session->nodes);
+  std::vector<StampedPose2> base_in_track;
+  for (const TrajectoryNode& node : session->nodes)
+    base_in_track.push_back({node.stamp, node.base_in_odom});
+  if (base_in_track.back().stamp < session->base_in_track.stamp)
+    base_in_track.push_back(session->base_in_track);
+  odometry_.resume(std::move(base_in_track), session->odom_in_track, session->odometry_source);
+  resumed_ = map_changed_ = true;
+  node_.log().info("goes on with the map of {}, {} scans", keeper_.path().string(),
+                   session->nodes.size());
+}
+
+void SlamNode::take_odometry(const StampedPose2& base_in_odom, std::string_view source) {
+  if (resumed_ && !odometry_.readings().empty()) {
+    const Duration age = base_in_odom.stamp - odometry_.readings().back().stamp;
+    if (age < -std::chrono::seconds(1) || age > seconds(config_.session_age)) {
+      node_.log().warning("the session is of another time, {:.0f} s ago: the map starts anew",
+                          to_seconds(age));
+      start_anew();
+    }
+  }
+  if (odometry_.insert(base_in_odom, source))
+    node_.log().warning("odometry was restarted: the robot is sought around its last pose");
+}
+
+/// What a successor needs, if a scan was drawn since the last time.
+void SlamNode::keep_session(bool last) {
+  if (const auto problem = keeper_.take_problem(last);
+      problem && node_.log().is_due("session", kComplaintPeriod)) {
+    node_.log().warning("session not kept: {}", *problem);
+  }
+  if (!keeper_.is_active() || used_ == kept_ || !filter_->has_map() || filter_->lost()) return;
+  Session session{filter_->tiles(), filter_->trajectory(), odometry_.readings().back(),
+                  odometry_.odom_in_track(), odometry_.source()};
+  if (keeper_.begin_save(std::move(session))) kept_ = used_;
+  if (last) keep_session(true);
 }
 
 void SlamNode::subscribe() {
   node_.subscribe<nav_msgs::msg::Odometry>(
-      "odom", Qos::kSensorStream, [this](const nav_msgs::msg::Odometry& message) {
+      "odom", Qos::kSensorStream,
+      [this](const nav_msgs::msg::Odometry& message, const runtime::MessageInfo& info) {
         const auto odometry = conversions::from_msg(message);
         if (odometry) {
-          odometry_.insert({odometry->odometry.stamp, odometry->odometry.base_in_odom});
+          take_odometry({odometry->odometry.stamp, odometry->odometry.base_in_odom}, info.writer);
         } else if (node_.log().is_due("bad odometry", kComplaintPeriod)) {
           node_.log().warning("odometry refused: {}", odometry.error());
         }
@@ -106,11 +141,7 @@ void SlamNode::subscribe() {
         // A log's player that was killed tells the last scans again.
         if (scan->stamp < newest_scan_) return;
         newest_scan_ = scan->stamp;
-        if (waiting_.size() >= kMaxWaiting) {
-          waiting_.pop_front();
-          ++dropped_;
-        }
-        waiting_.push_back(std::move(*scan));
+        waiting_.push(std::move(*scan));
         last_scan_ = node_.now();
       });
   node_.subscribe<coop_msgs::msg::SaveMap>(
@@ -119,43 +150,37 @@ void SlamNode::subscribe() {
 
 bool SlamNode::process_scans(int limit) {
   bool any = false;
-  for (int i = 0; i < limit && !waiting_.empty(); ++i) {
-    if (!process(waiting_.front())) break;
-    waiting_.pop_front();
+  for (int i = 0; i < limit; ++i) {
+    const auto located = waiting_.next(odometry_, transforms_, node_.now());
+    if (!located) break;
+    process(*located);
     any = true;
+  }
+  if (waiting_.dropped() != dropped_ && node_.log().is_due("scan dropped", kComplaintPeriod)) {
+    dropped_ = waiting_.dropped();
+    node_.log().warning("{} scans dropped so far: no {}", dropped_, waiting_.lack());
   }
   return any;
 }
 
-/// False where the scan has to wait.
-bool SlamNode::process(const LaserScan& scan) {
-  const auto base_in_odom = odometry_.at(scan.stamp);
-  const auto end_in_odom = odometry_.at(scan.stamp + scan.sweep_duration());
-  const auto laser_in_base = transforms_.lookup("base_link", scan.frame_id, scan.stamp);
-  if (base_in_odom && end_in_odom && laser_in_base) {
-    const Pose2 sweep = base_in_odom->inverse() * *end_in_odom;
-    const auto outcome = filter_->update(scan, *base_in_odom, to_pose2(*laser_in_base), sweep);
-    ++taken_;
-    used_ += outcome.used ? 1 : 0;
-    map_changed_ = map_changed_ || outcome.used;
-    return true;
+void SlamNode::process(const LocatedScan& located) {
+  const auto outcome =
+      filter_->update(located.scan, located.base_in_track, located.laser_in_base, located.sweep);
+  ++taken_;
+  used_ += outcome.used ? 1 : 0;
+  map_changed_ = map_changed_ || outcome.used;
+  lost_ = outcome.lost ? lost_ + 1 : 0;
+  resumed_ = resumed_ && !outcome.used;
+  if (resumed_ && lost_ >= kScansToFindThePlaceIn) {
+    node_.log().warning("the robot is nowhere near where the session left it: the map starts anew");
+    start_anew();
   }
-  const bool too_old = !base_in_odom && base_in_odom.error() == OdometryTrack::Absence::kTooOld;
-  const bool too_long = !node_.options().reliable_streams &&
-                        node_.now() - scan.stamp > seconds(config_.odometry_patience);
-  if (!too_old && !too_long) return false;
-  ++dropped_;
-  if (node_.log().is_due("scan dropped", kComplaintPeriod)) {
-    node_.log().warning("{} scans dropped so far: no {} at their stamp", dropped_,
-                        base_in_odom && end_in_odom ? "mount of " + scan.frame_id : "odometry");
-  }
-  return true;
 }
 
 void SlamNode::publish_transform() {
-  if (!filter_->has_map()) return;
+  if (!filter_->has_map() || filter_->lost()) return;
   node_.publish_transform("map", "odom", node_.now() + seconds(config_.transform_tolerance),
-                          filter_->odom_in_map());
+                          filter_->odom_in_map() * odometry_.odom_in_track());
 }
 
 void SlamNode::publish_map() {
@@ -174,6 +199,8 @@ void SlamNode::report_health() {
     node_.set_degraded("no odometry for the scans");
   } else if (waits && !node_.options().reliable_streams) {
     node_.set_degraded("scans wait: too many, or the mount of the laser is not known");
+  } else if (lost_ > 0) {
+    node_.set_degraded("the scans do not fit the map near the last pose");
   } else if (config_.scan_timeout > 0.0 && last_scan_ != Time{} &&
              now - last_scan_ > seconds(config_.scan_timeout)) {
     node_.set_degraded("no scan");
@@ -213,12 +240,11 @@ void SlamNode::save(const std::filesystem::path& path) {
 
 void SlamNode::finish() {
   if (!waiting_.empty()) node_.log().info("{} scans wait and are mapped first", waiting_.size());
-  while (process_scans(1)) {
-  }
-  dropped_ += waiting_.size();
+  while (process_scans(1)) node_.keep_alive();
   node_.log().info("{} scans taken, {} of them drawn into the map", taken_, used_);
-  if (dropped_ > 0)
-    node_.log().warning("{} scans were not mapped for want of odometry or mount", dropped_);
+  if (const std::size_t missing = waiting_.dropped() + waiting_.size(); missing > 0)
+    node_.log().warning("{} scans were not mapped for want of odometry or mount", missing);
+  keep_session(true);
   if (config_.save_path.empty()) return;
   try {
     if (!filter_->has_map()) throw std::runtime_error("there is none");

@@ -3,36 +3,23 @@
 #include <coop_msgs/msg/SaveMapResult.h>
 #include <nav_msgs/msg/OccupancyGrid.h>
 
-#include <deque>
 #include <filesystem>
 #include <memory>
 #include <string>
 
-#include "core/scan.hpp"
+#include "core/odometry_track.hpp"
+#include "core/scan_queue.hpp"
 #include "runtime/node.hpp"
 #include "slam/fork_join.hpp"
-#include "slam/odometry_track.hpp"
+#include "slam/node/session_keeper.hpp"
+#include "slam/node/slam_node_config.hpp"
 #include "slam/particle_filter.hpp"
 
 namespace coop::slam {
 
-struct SlamNodeConfig {
-  std::string save_path;    ///< map at exit: <path>.pgm, .yaml, _trajectory.txt; empty: not saved
-  int threads = 2;          ///< that share the particles; the result does not depend on it
-  double map_period = 1.0;  ///< s between maps
-  double transform_period = 0.05;    ///< s between map -> odom
-  double transform_tolerance = 0.1;  ///< s that map -> odom is dated ahead
-  double scan_timeout = 2.0;         ///< s without a scan until degraded; 0: never
-  double odometry_patience =
-      2.0;  ///< s a scan waits for its odometry; with reliable streams: for ever
-  SlamConfig slam;
-
-  void describe(config::Fields& fields);
-};
-
 /// Shell of the mapper. Scans wait until odometry has reached their end; a timer takes a few at a
 /// time, so that the heart beats on; what has arrived when the program stops is still mapped, then
-/// map and trajectory are saved.
+/// map and trajectory are saved. Where one that was killed left a session, its map goes on.
 class SlamNode {
  public:
   using Config = SlamNodeConfig;
@@ -42,9 +29,12 @@ class SlamNode {
   void subscribe();
   void handle_clock_jump();
   void start_anew();
+  void resume();
+  void take_odometry(const StampedPose2& base_in_odom, std::string_view source);
+  void keep_session(bool last);
   /// Maps up to `limit` of the scans that wait. Answers whether there was one.
   bool process_scans(int limit);
-  bool process(const LaserScan& scan);
+  void process(const LocatedScan& located);
   void publish_transform();
   void publish_map();
   void report_health();
@@ -58,10 +48,14 @@ class SlamNode {
   const TransformBuffer& transforms_;  ///< for the mount of the laser
   std::unique_ptr<ParticleFilter> filter_;
   OdometryTrack odometry_;
-  std::deque<LaserScan> waiting_;
+  ScanQueue waiting_;
+  SessionKeeper keeper_;
   std::size_t taken_ = 0;    ///< scans
   std::size_t used_ = 0;     ///< of them: drawn into the map
-  std::size_t dropped_ = 0;  ///< scans without odometry
+  std::size_t kept_ = 0;     ///< of used_, in the last session
+  std::size_t dropped_ = 0;  ///< of the scans dropped: told
+  std::size_t lost_ = 0;     ///< scans on end that did not find their place
+  bool resumed_ = false;     ///< the map is that of a session and the robot not found in it yet
   Time clock_{};
   Time last_scan_{};    ///< by the clock, when it came
   Time newest_scan_{};  ///< stamp

@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "amcl/amcl.hpp"
-#include "unit/amcl/simulated_room.hpp"
+#include "support/simulated_room.hpp"
 
 namespace coop::amcl {
 namespace {

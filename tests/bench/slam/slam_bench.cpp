@@ -4,7 +4,7 @@
 #include "slam/map_updater.hpp"
 #include "slam/particle_filter.hpp"
 #include "slam/scan_matcher.hpp"
-#include "unit/amcl/simulated_room.hpp"
+#include "support/simulated_room.hpp"
 
 namespace coop::slam {
 namespace {

@@ -2,16 +2,18 @@
 
 #include <coop_msgs/msg/GlobalLocalization.h>
 #include <gtest/gtest.h>
+#include <nav_msgs/msg/Odometry.h>
 #include <sensor_msgs/msg/LaserScan.h>
 
 #include "conversions/geometry.hpp"
+#include "conversions/navigation.hpp"
 #include "conversions/sensors.hpp"
 #include "core/atomic_file.hpp"
 #include "core/config/error.hpp"
 #include "core/map/map_file.hpp"
 #include "support/component_fixture.hpp"
+#include "support/simulated_room.hpp"
 #include "support/temporary_folder.hpp"
-#include "unit/amcl/simulated_room.hpp"
 
 namespace coop::amcl {
 namespace {
@@ -29,18 +31,27 @@ class AmclNodeTest : public testing::Test {
     config_.initial_pose = {.known = true, .x = 2.0, .y = 1.5, .yaw = 0.0};
     options_.run_dir = folder_.path();
     runtime::Node& tester = fixture_.tester();
+    odometry_ = tester.advertise<nav_msgs::msg::Odometry>("odom", Qos::kSensorStream);
     scans_ = tester.advertise<sensor_msgs::msg::LaserScan>("scan", Qos::kSensorStream);
     tester.publish_static_transform("base_link", "laser_link", to_pose3(drive_.laser_in_base));
   }
 
   void start() { fixture_.add<AmclNode>("amcl", config_, options_); }
 
+  void send_odometry() {
+    fixture_.tester().publish_transform("odom", "base_link", drive_.stamp, drive_.base_in_odom);
+    conversions::FramedOdometry odometry;
+    odometry.odometry.stamp = drive_.stamp;
+    odometry.odometry.base_in_odom = drive_.base_in_odom;
+    odometry_.publish(conversions::to_msg(odometry));
+  }
+
   /// The robot drives its tour: odometry and a scan every 100 ms.
   void drive(int steps, bool with_scans = true) {
     for (int i = 0; i < steps; ++i) {
       drive_.follow_tour();
       fixture_.advance(100ms);
-      fixture_.tester().publish_transform("odom", "base_link", drive_.stamp, drive_.base_in_odom);
+      send_odometry();
       if (with_scans) scans_.publish(conversions::to_msg(drive_.scan()));
       fixture_.settle();
     }
@@ -60,6 +71,7 @@ class AmclNodeTest : public testing::Test {
   AmclNodeConfig config_;
   runtime::Options options_;
   runtime::Publisher<sensor_msgs::msg::LaserScan> scans_;
+  runtime::Publisher<nav_msgs::msg::Odometry> odometry_;
 };
 
 TEST_F(AmclNodeTest, ServesTheMapToWhoeverComesLater) {
@@ -165,6 +177,36 @@ TEST_F(AmclNodeTest, GlobalLocalisationOnRequestFindsTheRobotAgain) {
       "global_localization", Qos::kEvent);
   request.publish(coop_msgs::msg::GlobalLocalization());
   drive(150);
+  EXPECT_EQ(health(), Health::kReady);
+  EXPECT_LT(error_at(drive_.stamp).value_or(99.0), 0.1);
+}
+
+TEST_F(AmclNodeTest, OdometryThatStartsAgainAtZeroDoesNotMoveTheRobot) {
+  start();
+  drive(50);
+  drive_.base_in_odom = {};
+  odometry_ = fixture_.tester().advertise<nav_msgs::msg::Odometry>("odom", Qos::kSensorStream);
+  (void)fixture_.tester().transforms();  // from here on: it knows nothing of the odometry before
+  drive(20);
+  EXPECT_EQ(health(), Health::kReady);
+  EXPECT_LT(error_at(drive_.stamp).value_or(99.0), 0.1);
+}
+
+TEST_F(AmclNodeTest, SaysThatTheScansDoNotFitAndFindsTheRobotThoughItStands) {
+  (void)fixture_.tester().transforms();
+  config_.initial_pose = {.known = true, .x = 12.5, .y = 7.5, .yaw = 2.0};
+  start();
+  int told = 0;
+  for (int i = 0; i < 100; ++i) {
+    drive_.wait();
+    fixture_.advance(100ms);
+    send_odometry();
+    scans_.publish(conversions::to_msg(drive_.scan()));
+    fixture_.settle();
+    const auto error = error_at(drive_.stamp);
+    told += error && *error > 0.3 ? 1 : 0;
+  }
+  EXPECT_LT(told, 5) << "a wrong pose is not told for long";
   EXPECT_EQ(health(), Health::kReady);
   EXPECT_LT(error_at(drive_.stamp).value_or(99.0), 0.1);
 }

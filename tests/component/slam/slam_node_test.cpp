@@ -13,8 +13,8 @@
 #include "core/map/map_file.hpp"
 #include "slam/trajectory_file.hpp"
 #include "support/component_fixture.hpp"
+#include "support/simulated_room.hpp"
 #include "support/temporary_folder.hpp"
-#include "unit/amcl/simulated_room.hpp"
 
 namespace coop::slam {
 namespace {
@@ -40,6 +40,7 @@ class SlamNodeTest : public testing::Test {
   void start(bool reliable = false) {
     runtime::Options options;
     options.reliable_streams = reliable;
+    options.run_dir = folder_.path();
     fixture_.add<SlamNode>("slam", config_, options);
     mount_laser();
   }
@@ -265,6 +266,144 @@ TEST_F(SlamNodeTest, MalformedScansAreRefusedWithoutHarm) {
   drive(5);
   EXPECT_EQ(health(), Health::kReady);
   EXPECT_FALSE(map_transforms().empty());
+}
+
+/// The best map so far, cells that are occupied.
+std::ptrdiff_t walls_of(const nav_msgs::msg::OccupancyGrid& message) {
+  const auto map = conversions::from_msg(message);
+  return map ? std::ranges::count(map->value.cells, kOccupied) : -1;
+}
+
+class SlamNodeAfterADeath : public SlamNodeTest {
+ protected:
+  SlamNodeAfterADeath() { config_.session_period = 5.0; }
+
+  void map_and_die() {
+    start();
+    drive(120);
+    walls_ = walls_of(maps_->back());
+    fixture_.remove("slam", true);  // ends only when the session being written is on disk
+    ASSERT_TRUE(std::filesystem::exists(session()));
+    maps_->clear();
+    transforms_->clear();
+  }
+  [[nodiscard]] std::filesystem::path session() const { return folder_.path() / "slam.session"; }
+  /// Of the pose that is told, seen from the first map's origin; nothing where none is told.
+  [[nodiscard]] std::optional<double> error() const {
+    const auto transforms = map_transforms();
+    if (transforms.empty()) return std::nullopt;
+    const auto& t = transforms.back().transform();
+    const Pose2 odom_in_map{t.translation().x(), t.translation().y(),
+                            2.0 * std::atan2(t.rotation().z(), t.rotation().w())};
+    return distance(odom_in_map * drive_.base_in_odom, start_.inverse() * drive_.base_in_map);
+  }
+
+  std::ptrdiff_t walls_ = 0;
+};
+
+TEST_F(SlamNodeAfterADeath, GoesOnWithTheMapOfTheSession) {
+  map_and_die();
+  for (int i = 0; i < 10; ++i) drive_.follow_tour();  // half a metre, unobserved
+  fixture_.set_time(drive_.stamp);
+  start();
+  fixture_.advance(1s);
+  ASSERT_FALSE(maps_->empty()) << "the map is told at once";
+  EXPECT_GT(walls_of(maps_->back()), 0.7 * static_cast<double>(walls_));
+  EXPECT_TRUE(map_transforms().empty()) << "where the robot is in it is not known yet";
+  drive_.stamp = fixture_.now();
+  drive(20);
+  EXPECT_EQ(health(), Health::kReady);
+  ASSERT_TRUE(error());
+  EXPECT_LT(*error(), 0.08);
+  fixture_.remove("slam");
+  const auto trajectory =
+      parse_trajectory(read_file(config_.save_path + "_trajectory.txt"), "trajectory");
+  EXPECT_LT(trajectory.front().stamp, time_from_seconds(1001.0)) << "the way before is kept";
+}
+
+TEST_F(SlamNodeAfterADeath, GoesOnThoughOdometryWasRestartedAsWell) {
+  map_and_die();
+  drive_.base_in_odom = {};
+  odometry_ = fixture_.tester().advertise<nav_msgs::msg::Odometry>("odom", Qos::kSensorStream);
+  start();
+  drive(20);
+  ASSERT_TRUE(error());
+  EXPECT_LT(*error(), 0.08);
+}
+
+TEST_F(SlamNodeAfterADeath, BeginsAnewWhereToldTo) {
+  map_and_die();
+  config_.resume = false;
+  start();
+  fixture_.advance(2s);
+  EXPECT_TRUE(maps_->empty());
+}
+
+TEST_F(SlamNodeAfterADeath, BeginsAnewWhereTheSessionIsCutOrOfAnotherResolution) {
+  map_and_die();
+  const std::string whole = read_file(session());
+  write_file_atomically(session(), std::string_view(whole).substr(0, whole.size() / 2));
+  start();
+  fixture_.advance(2s);
+  EXPECT_TRUE(maps_->empty());
+  drive_.stamp = fixture_.now();
+  drive(15);
+  EXPECT_FALSE(maps_->empty());
+  fixture_.remove("slam", true);
+  maps_->clear();
+  write_file_atomically(session(), whole);
+  config_.slam.resolution = 0.1;
+  start();
+  fixture_.advance(2s);
+  EXPECT_TRUE(maps_->empty());
+}
+
+TEST_F(SlamNodeAfterADeath, BeginsAnewWhereTheSessionIsOfAnotherTime) {
+  map_and_die();
+  fixture_.set_time(time_from_seconds(10.0));
+  drive_.stamp = fixture_.now();
+  start();
+  step();
+  moved_ = false;
+  drive(10);
+  ASSERT_FALSE(map_transforms().empty());
+  EXPECT_LT(walls_of(maps_->back()), walls_) << "a few scans only";
+}
+
+TEST_F(SlamNodeAfterADeath, ARobotThatIsElsewhereBeginsAnewAfterAWhile) {
+  map_and_die();
+  drive_.base_in_map = {10.5, 7.2, 2.5};
+  drive_.base_in_odom = {};
+  odometry_ = fixture_.tester().advertise<nav_msgs::msg::Odometry>("odom", Qos::kSensorStream);
+  start();
+  const auto stand = [&](int steps) {
+    for (int i = 0; i < steps; ++i) {
+      drive_.wait();
+      send_odometry();
+      send_scan();
+      fixture_.advance(100ms);
+    }
+  };
+  stand(30);
+  EXPECT_EQ(health(), Health::kDegraded);
+  EXPECT_TRUE(map_transforms().empty());
+  stand(90);
+  EXPECT_EQ(health(), Health::kReady);
+  EXPECT_FALSE(map_transforms().empty());
+}
+
+TEST_F(SlamNodeTest, OdometryThatStartsAgainAtZeroDoesNotMoveTheRobotInTheMap) {
+  start();
+  drive(80);
+  drive_.base_in_odom = {};
+  odometry_ = fixture_.tester().advertise<nav_msgs::msg::Odometry>("odom", Qos::kSensorStream);
+  drive(80);
+  EXPECT_EQ(health(), Health::kReady);
+  const auto& t = map_transforms().back().transform();
+  const Pose2 odom_in_map{t.translation().x(), t.translation().y(),
+                          2.0 * std::atan2(t.rotation().z(), t.rotation().w())};
+  EXPECT_LT(distance(odom_in_map * drive_.base_in_odom, start_.inverse() * drive_.base_in_map),
+            0.06);
 }
 
 }  // namespace

@@ -5,34 +5,23 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
-#include <stdexcept>
 
-#include "core/carmen/carmen_log.hpp"
 #include "core/carmen/fields.hpp"
 
 namespace coop::experiments {
 
 std::vector<Relation> parse_relations(std::string_view text, const std::string& name) {
   std::vector<Relation> relations;
-  for (int number = 1; !text.empty(); ++number) {
-    const auto end = text.find('\n');
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (line.empty() || line.front() == '#') continue;
-    try {
-      carmen::FieldCursor fields(line);
-      Relation relation;
-      relation.from = fields.stamp("t1");
-      relation.to = fields.stamp("t2");
-      relation.truth.x = fields.number("x");
-      relation.truth.y = fields.number("y");
-      for (const char* flat : {"z", "roll", "pitch"}) fields.number(flat);
-      relation.truth.yaw = fields.number("yaw");
-      relations.push_back(relation);
-    } catch (const carmen::FormatError& error) {
-      throw std::runtime_error(name + ":" + std::to_string(number) + ": " + error.what());
-    }
-  }
+  carmen::for_each_line(text, name, [&](carmen::FieldCursor& fields) {
+    Relation relation;
+    relation.from = fields.stamp("t1");
+    relation.to = fields.stamp("t2");
+    relation.truth.x = fields.number("x");
+    relation.truth.y = fields.number("y");
+    for (const char* flat : {"z", "roll", "pitch"}) fields.number(flat);
+    relation.truth.yaw = fields.number("yaw");
+    relations.push_back(relation);
+  });
   return relations;
 }
 

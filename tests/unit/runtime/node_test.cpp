@@ -93,6 +93,20 @@ TEST_F(NodeTest, HealthIsReportedAtEveryChangeWithItsReason) {
   EXPECT_EQ(changes, expected);
 }
 
+TEST_F(NodeTest, TheHeartBeatsOnDuringLongWorkTwiceASecond) {
+  const auto statuses = world_.collect<ComponentStatus>("component_status", Qos::kHeartbeat);
+  world_.add<Parrot>("parrot", {});
+  Node& node = world_.node_of("parrot");
+  const std::size_t before = statuses->size();
+  const auto start = std::chrono::steady_clock::now();
+  const auto elapsed = [&] { return std::chrono::steady_clock::now() - start; };
+  // Work that never gives the executor a turn.
+  while (elapsed() < std::chrono::milliseconds(1100)) node.keep_alive();
+  world_.settle();
+  EXPECT_GE(statuses->size() - before, 2U);
+  EXPECT_LE(statuses->size() - before, 5U) << "not at every call";
+}
+
 TEST_F(NodeTest, TransformsTravelBetweenNodesAlsoToLateOnes) {
   world_.add<Parrot>("parrot", {});
   Node& parrot = world_.node_of("parrot");

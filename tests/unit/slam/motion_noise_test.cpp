@@ -34,5 +34,17 @@ TEST(MotionNoise, OneStepIsAsUncertainAsTheSameWayInManyBeyondTheFloor) {
   EXPECT_NEAR(whole.z() * whole.z(), 10.0 * tenth.z() * tenth.z(), 1e-12);
 }
 
+TEST(MotionNoise, IsWideWhereOdometryWasRestarted) {
+  MotionNoiseConfig config;
+  config.min_position = 0.03;
+  config.min_yaw = 0.05;
+  config.restart_position = 0.4;
+  config.restart_yaw = 0.12;
+  const Eigen::Vector3d stddev = motion_stddev(config, {}, true);
+  EXPECT_NEAR(stddev.x(), std::hypot(0.03, 0.4), 1e-12);
+  EXPECT_NEAR(stddev.y(), stddev.x(), 1e-12);
+  EXPECT_NEAR(stddev.z(), 0.13, 1e-12);
+}
+
 }  // namespace
 }  // namespace coop::slam

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "unit/amcl/simulated_room.hpp"
+#include "support/simulated_room.hpp"
 
 namespace coop::slam {
 namespace {
@@ -23,10 +23,34 @@ class Survey {
       if (i == 0) start_ = drive_.base_in_map;  // the first scan's pose is the map's origin
     }
   }
+  /// The same over a track of odometry as the shell has it, which the driver restarts at zero
+  /// halfway while the robot moves on unseen.
+  void run_with_restart(int before, const Pose2& unseen, int after) {
+    OdometryTrack track;
+    const auto steps = [&](int count, const char* source) {
+      for (int i = 0; i < count; ++i) {
+        drive_.follow_tour();
+        track.insert({drive_.stamp, drive_.base_in_odom}, source);
+        const bool first = !filter_.has_map();
+        const auto outcome =
+            filter_.update(drive_.scan(), *track.at(drive_.stamp), drive_.laser_in_base);
+        if (first) start_ = drive_.base_in_map;
+        lost_ += outcome.lost ? 1 : 0;
+      }
+    };
+    steps(before, "one");
+    drive_.base_in_odom = {};
+    drive_.base_in_map = drive_.base_in_map * unseen;
+    drive_.stamp += std::chrono::milliseconds(1500);
+    steps(after, "two");
+    odom_in_track_ = track.odom_in_track();
+  }
+  /// Scans that were not found in the map.
+  [[nodiscard]] int lost() const { return lost_; }
   /// Of the estimated pose, seen from the first, m and rad.
   [[nodiscard]] Pose2 error() const {
     const Pose2 truth = start_.inverse() * drive_.base_in_map;
-    return truth.inverse() * (filter_.odom_in_map() * drive_.base_in_odom);
+    return truth.inverse() * (filter_.odom_in_map() * odom_in_track_ * drive_.base_in_odom);
   }
   [[nodiscard]] Pose2 odometry_error(const Pose2& odometry_start) const {
     const Pose2 truth = start_.inverse() * drive_.base_in_map;
@@ -42,7 +66,30 @@ class Survey {
   ParticleFilter filter_;
   test::SimulatedDrive drive_;
   Pose2 start_;
+  Pose2 odom_in_track_;
+  int lost_ = 0;
 };
+
+/// Share of the map's walls that are walls of the barn, give or take 8 cm: a cell and a little.
+double share_at_walls(const Survey& survey) {
+  const OccupancyGrid map = survey.filter().map();
+  const OccupancyGrid barn = test::barn();
+  double occupied = 0.0;
+  double at_walls = 0.0;
+  for (std::size_t i = 0; i < map.cells.size(); ++i) {
+    if (map.cells[i] != kOccupied) continue;
+    const Cell cell =
+        barn.geometry.cell_of(survey.start() * map.geometry.center_of(map.geometry.cell_at(i)));
+    bool near_wall = false;
+    for (int dy = -8; dy <= 8; ++dy) {
+      for (int dx = -8; dx <= 8; ++dx)
+        near_wall = near_wall || barn.at_or({cell.x + dx, cell.y + dy}, kUnknown) == kOccupied;
+    }
+    occupied += 1.0;
+    at_walls += near_wall ? 1.0 : 0.0;
+  }
+  return at_walls / occupied;
+}
 
 SlamConfig small() {
   SlamConfig config;
@@ -109,24 +156,48 @@ TEST(ParticleFilter, DrawsWallsWhereTheyAre) {
   Survey survey(small(), 1, 2);
   survey.run(1100);
   const OccupancyGrid map = survey.filter().map();
-  const OccupancyGrid barn = test::barn();
-  std::size_t occupied = 0;
-  std::size_t at_walls = 0;
-  for (std::size_t i = 0; i < map.cells.size(); ++i) {
-    if (map.cells[i] != kOccupied) continue;
-    ++occupied;
-    const Eigen::Vector2d in_barn =
-        survey.start() * map.geometry.center_of(map.geometry.cell_at(i));
-    const Cell cell = barn.geometry.cell_of(in_barn);
-    bool near_wall = false;
-    for (int dy = -8; dy <= 8; ++dy) {  // 8 cm: a cell of the map and a little
-      for (int dx = -8; dx <= 8; ++dx)
-        near_wall = near_wall || barn.at_or({cell.x + dx, cell.y + dy}, kUnknown) == kOccupied;
-    }
-    at_walls += near_wall ? 1 : 0;
-  }
-  EXPECT_GT(occupied, 900U);  // 46 m of outer walls are 920 cells
-  EXPECT_GT(static_cast<double>(at_walls), 0.98 * static_cast<double>(occupied));
+  EXPECT_GT(std::ranges::count(map.cells, kOccupied), 900);  // 46 m of outer walls are 920 cells
+  EXPECT_GT(share_at_walls(survey), 0.98);
+}
+
+TEST(ParticleFilter, OdometryThatStartsAgainAtZeroDoesNotSmearTheMap) {
+  Survey survey(small(), 1, 2);
+  survey.run_with_restart(300, {0.2, 0.05, 0.15}, 300);
+  const Pose2 error = survey.error();
+  EXPECT_LT(std::hypot(error.x, error.y), 0.06);
+  EXPECT_LT(std::abs(error.yaw), 0.02);
+  EXPECT_GT(share_at_walls(survey), 0.97);
+  EXPECT_EQ(survey.lost(), 0);
+}
+
+TEST(ParticleFilter, ARobotCarriedAwayWhileOdometryWasRestartedIsLostAndDrawsNothing) {
+  Survey survey(small(), 1, 2);
+  survey.run_with_restart(200, {5.0, 4.0, 2.0}, 1);
+  EXPECT_EQ(survey.lost(), 1);
+  EXPECT_TRUE(survey.filter().lost());
+  EXPECT_GT(share_at_walls(survey), 0.97);
+}
+
+TEST(ParticleFilter, AnotherFilterGoesOnWithTheMapAndTheWay) {
+  Survey first(small(), 1, 2);
+  first.run(300);
+  const auto nodes = first.filter().trajectory();
+  ForkJoin workers(2);
+  ParticleFilter second(small(), 7, workers);
+  second.resume(first.filter().tiles(), nodes);
+  EXPECT_TRUE(second.has_map());
+  EXPECT_TRUE(second.lost()) << "until a scan was found in it";
+  EXPECT_EQ(second.map(), first.filter().map());
+  auto& drive = first.drive();
+  for (int i = 0; i < 20; ++i) drive.follow_tour();  // unobserved
+  ASSERT_TRUE(second.update(drive.scan(), drive.base_in_odom, drive.laser_in_base).used);
+  EXPECT_FALSE(second.lost());
+  const Pose2 truth = first.start().inverse() * drive.base_in_map;
+  EXPECT_LT(distance(second.odom_in_map() * drive.base_in_odom, truth), 0.06);
+  const auto longer = second.trajectory();
+  ASSERT_EQ(longer.size(), nodes.size() + 1);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    EXPECT_EQ(longer[i].base_in_map, nodes[i].base_in_map);
 }
 
 TEST(ParticleFilter, TrajectoryHasANodeForEveryScanUsedAndEndsWhereTheRobotIs) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "slam/map_updater.hpp"
-#include "unit/amcl/simulated_room.hpp"
+#include "support/simulated_room.hpp"
 
 namespace coop::slam {
 namespace {

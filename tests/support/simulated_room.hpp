@@ -7,6 +7,7 @@
 #include "core/pose.hpp"
 #include "core/random.hpp"
 #include "core/scan.hpp"
+#include "core/vehicle/ackermann.hpp"
 #include "core/world/ray_caster.hpp"
 
 namespace coop::test {
@@ -60,12 +61,12 @@ class SimulatedDrive {
 
   /// One step at speed v (m/s) and turn rate omega (rad/s).
   void drive(double v, double omega, double dt = 0.1) {
-    base_in_map = base_in_map * arc(v * dt, omega * dt);
+    base_in_map = vehicle::advance_along_arc(base_in_map, v * dt, omega * dt);
     const double way = std::sqrt(std::abs(v) * dt);
     const double turn = std::sqrt(std::abs(omega) * dt);
-    base_in_odom = base_in_odom *
-                   arc(1.01 * v * dt + 0.01 * way * random_.normal(),
-                       omega * dt + 0.01 * way * random_.normal() + 0.03 * turn * random_.normal());
+    base_in_odom = vehicle::advance_along_arc(
+        base_in_odom, 1.01 * v * dt + 0.01 * way * random_.normal(),
+        omega * dt + 0.01 * way * random_.normal() + 0.03 * turn * random_.normal());
     stamp += seconds(dt);
   }
   void wait(double dt = 0.1) { stamp += seconds(dt); }
@@ -105,12 +106,6 @@ class SimulatedDrive {
   }
 
  private:
-  static Pose2 arc(double way, double turn) {
-    const double half = turn / 2.0;
-    const double chord = std::abs(half) < 1e-9 ? way : way * std::sin(half) / half;
-    return {chord * std::cos(half), chord * std::sin(half), turn};
-  }
-
   world::RayCaster caster_;
   RandomStream random_;
   std::size_t leg_ = 0;
