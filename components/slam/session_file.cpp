@@ -107,6 +107,15 @@ bool take_map(Source& source, TileMap& map) {
 
 }  // namespace
 
+std::vector<StampedPose2> track_of(const Session& session) {
+  std::vector<StampedPose2> base_in_track;
+  for (const TrajectoryNode& node : session.nodes)
+    base_in_track.push_back({node.stamp, node.base_in_odom});
+  if (session.nodes.empty() || session.nodes.back().stamp < session.base_in_track.stamp)
+    base_in_track.push_back(session.base_in_track);
+  return base_in_track;
+}
+
 std::string to_bytes(const Session& session) {
   std::string content;
   put(content, session.map.resolution());

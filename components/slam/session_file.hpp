@@ -20,6 +20,9 @@ struct Session {
   std::string odometry_source;
 };
 
+/// What is kept of odometry: at the scans used, and the newest; ascending.
+[[nodiscard]] std::vector<StampedPose2> track_of(const Session& session);
+
 /// A line that names the format, a checksum of the rest, the rest: numbers as this machine keeps
 /// them, of the map the known cells.
 [[nodiscard]] std::string to_bytes(const Session& session);

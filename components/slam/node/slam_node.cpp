@@ -82,12 +82,7 @@ void SlamNode::resume() {
     return;
   }
   filter_->resume(session->map, session->nodes);
-  std::vector<StampedPose2> base_in_track;
-  for (const TrajectoryNode& node : session->nodes)
-    base_in_track.push_back({node.stamp, node.base_in_odom});
-  if (base_in_track.back().stamp < session->base_in_track.stamp)
-    base_in_track.push_back(session->base_in_track);
-  odometry_.resume(std::move(base_in_track), session->odom_in_track, session->odometry_source);
+  odometry_.resume(track_of(*session), session->odom_in_track, session->odometry_source);
   resumed_ = map_changed_ = true;
   node_.log().info("goes on with the map of {}, {} scans", keeper_.path().string(),
                    session->nodes.size());

@@ -44,6 +44,13 @@ TEST(SessionFile, ComesBackToTheBit) {
   EXPECT_EQ(to_bytes(*after), to_bytes(before));
 }
 
+TEST(SessionFile, KeepsOdometryAtTheScansAndTheNewest) {
+  const auto track = track_of(example());
+  ASSERT_EQ(track.size(), 3U);
+  EXPECT_EQ(track[1].pose, (Pose2{2, 2, 0.6}));
+  EXPECT_EQ(track[2].pose, (Pose2{2.1, 2, 0.6}));
+}
+
 TEST(SessionFile, ACutFileIsRefusedWhereverItWasCut) {
   const std::string whole = to_bytes(example());
   for (std::size_t length = 0; length < whole.size(); length += 7)
