@@ -50,7 +50,8 @@ SlamNode::SlamNode(runtime::Node& node, const Config& config)
   node.every(seconds(config.transform_period), [this] { publish_transform(); });
   node.every(seconds(config.map_period), [this] { publish_map(); });
   node.every(std::chrono::milliseconds(500), [this] { report_health(); });
-  node.every(seconds(config.session_period), [this] { keep_session(false); });
+  // In lockstep a successor must find what was kept in the tick, not what the disk had time for.
+  node.every(seconds(config.session_period), [this] { keep_session(node_.options().lockstep); });
   node.on_clock_jump([this] { handle_clock_jump(); });
   node.on_stop([this] { finish(); });
 }
@@ -102,16 +103,17 @@ void SlamNode::take_odometry(const StampedPose2& base_in_odom, std::string_view 
 }
 
 /// What a successor needs, if a scan was drawn since the last time.
-void SlamNode::keep_session(bool last) {
-  if (const auto problem = keeper_.take_problem(last);
-      problem && node_.log().is_due("session", kComplaintPeriod)) {
-    node_.log().warning("session not kept: {}", *problem);
-  }
+void SlamNode::keep_session(bool wait) {
+  const auto tell = [this](const std::optional<std::string>& problem) {
+    if (problem && node_.log().is_due("session", kComplaintPeriod))
+      node_.log().warning("session not kept: {}", *problem);
+  };
+  tell(keeper_.take_problem(wait));
   if (!keeper_.is_active() || used_ == kept_ || !filter_->has_map() || filter_->lost()) return;
   Session session{filter_->tiles(), filter_->trajectory(), odometry_.readings().back(),
                   odometry_.odom_in_track(), odometry_.source()};
   if (keeper_.begin_save(std::move(session))) kept_ = used_;
-  if (last) keep_session(true);
+  if (wait) tell(keeper_.take_problem(true));
 }
 
 void SlamNode::subscribe() {

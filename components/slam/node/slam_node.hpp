@@ -31,7 +31,7 @@ class SlamNode {
   void start_anew();
   void resume();
   void take_odometry(const StampedPose2& base_in_odom, std::string_view source);
-  void keep_session(bool last);
+  void keep_session(bool wait);
   /// Maps up to `limit` of the scans that wait. Answers whether there was one.
   bool process_scans(int limit);
   void process(const LocatedScan& located);
