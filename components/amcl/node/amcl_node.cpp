@@ -101,7 +101,8 @@ void AmclNode::subscribe() {
         const auto& [stamp, base_in_odom, velocity] = odometry->odometry;
         if (odometry_.insert({stamp, base_in_odom}, info.writer))
           node_.log().warning("odometry was restarted: goes on from the last pose");
-      });
+      },
+      runtime::Attention::kPatient);
   node_.subscribe<sensor_msgs::msg::LaserScan>("scan", Qos::kSensorStream,
                                                [this](const sensor_msgs::msg::LaserScan& message) {
                                                  auto scan = conversions::from_msg(message);

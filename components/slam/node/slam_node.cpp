@@ -126,7 +126,8 @@ void SlamNode::subscribe() {
         } else if (node_.log().is_due("bad odometry", kComplaintPeriod)) {
           node_.log().warning("odometry refused: {}", odometry.error());
         }
-      });
+      },
+      runtime::Attention::kPatient);
   node_.subscribe<sensor_msgs::msg::LaserScan>(
       "scan", Qos::kSensorStream, [this](const sensor_msgs::msg::LaserScan& message) {
         auto scan = conversions::from_msg(message);
