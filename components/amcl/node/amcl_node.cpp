@@ -2,6 +2,7 @@
 
 #include "conversions/geometry.hpp"
 #include "conversions/navigation.hpp"
+#include "conversions/sensors.hpp"
 #include "coop_msgs/msg/GlobalLocalization.h"
 #include "core/atomic_file.hpp"
 #include "core/config/error.hpp"
