@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/atomic_file.hpp"
+#include "core/markup.hpp"
 #include "demo/figures.hpp"
 #include "demo/picture.hpp"
 
@@ -14,26 +15,6 @@ namespace coop::demo {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string base64(const std::string& bytes) {
   static constexpr std::string_view kAlphabet =
@@ -65,7 +46,8 @@ std::string row(const std::string& name, const std::string& value) {
 
 std::string figures_table(const Record& record) {
   const Figures f = compute_figures(record);
-  return "<table>\n" + row("mission", escaped(record.mission_state + " " + record.mission_detail)) +
+  return "<table>\n" +
+         row("mission", escape_markup(record.mission_state + " " + record.mission_detail)) +
          row("time", fmt::format("{:.1f} s", f.duration)) +
          row("distance driven", fmt::format("{:.1f} m", f.distance_driven)) +
          row("mean speed", fmt::format("{:.2f} m/s", f.mean_speed)) +
@@ -89,9 +71,9 @@ std::string egg_table(const Record& record) {
         "<td>{}</td><td>{}</td></tr>\n",
         place == record.order.end() ? std::string("-")
                                     : std::to_string(place - record.order.begin() + 1),
-        escaped(egg.id), egg.egg_in_map.x(), egg.egg_in_map.y(),
-        egg.state == "picked" ? "good" : "bad", escaped(egg.state), egg.attempts,
-        escaped(egg.reason));
+        escape_markup(egg.id), egg.egg_in_map.x(), egg.egg_in_map.y(),
+        egg.state == "picked" ? "good" : "bad", escape_markup(egg.state), egg.attempts,
+        escape_markup(egg.reason));
   }
   return out + "</table>\n";
 }
@@ -124,13 +106,6 @@ nlohmann::ordered_json to_json(const Record& record) {
           {"eggs", eggs}};
 }
 
-constexpr const char* kStyle =
-    "body{font:16px/1.45 system-ui,sans-serif;max-width:1200px;margin:2em auto;padding:0 "
-    "1em;color:#222}"
-    "img{max-width:100%;border:1px solid #bbb}table{border-collapse:collapse;margin:1em 0}"
-    "th,td{border:1px solid #ccc;padding:.3em .7em;text-align:left}th{background:#f3f3f3}"
-    ".good{color:#176b17;font-weight:bold}.bad{color:#b01010;font-weight:bold}";
-
 }  // namespace
 
 std::string render_html(const Record& survey, const Record& collection, const Summary& summary,
@@ -141,23 +116,21 @@ std::string render_html(const Record& survey, const Record& collection, const Su
     return "<img alt=\"" + std::string(alt) + "\" src=\"data:image/png;base64," + base64(png) +
            "\">\n";
   };
-  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Coop demo</title>"
-         "<style>" +
-         std::string(kStyle) +
-         "</style></head><body>\n<h1>Egg collection in the duck house</h1>\n" +
-         fmt::format("<p class=\"{}\">{} of {} eggs collected, {} collisions.</p>\n",
-                     good ? "good" : "bad", collection.eggs_collected, collection.eggs_in_world,
-                     collection.collisions + survey.collisions) +
-         fmt::format("<p>Seed {}, {:.0f} s of wall time, {}.</p>\n", summary.seed,
-                     summary.wall_seconds, escaped(summary.version)) +
-         "<h2>The collection</h2>\n" +
-         image(run_png, "costmap, path driven, eggs and their order") + figures_table(collection) +
-         egg_table(collection) +
-         fmt::format("<p>Cost of the chosen order: {:.2f} m. Picked {}, failed {}.</p>\n",
-                     collection.tour_cost, f.eggs_picked, f.eggs_failed) +
-         "<h2>The survey</h2>\n<p>The map the robot made of the house before, and its way through "
-         "it.</p>\n" +
-         image(map_png, "map made by slam") + figures_table(survey) + "</body></html>\n";
+  const std::string body =
+      "<h1>Egg collection in the duck house</h1>\n" +
+      fmt::format("<p class=\"{}\">{} of {} eggs collected, {} collisions.</p>\n",
+                  good ? "good" : "bad", collection.eggs_collected, collection.eggs_in_world,
+                  collection.collisions + survey.collisions) +
+      fmt::format("<p>Seed {}, {:.0f} s of wall time, {}.</p>\n", summary.seed,
+                  summary.wall_seconds, escape_markup(summary.version)) +
+      "<h2>The collection</h2>\n" + image(run_png, "costmap, path driven, eggs and their order") +
+      figures_table(collection) + egg_table(collection) +
+      fmt::format("<p>Cost of the chosen order: {:.2f} m. Picked {}, failed {}.</p>\n",
+                  collection.tour_cost, f.eggs_picked, f.eggs_failed) +
+      "<h2>The survey</h2>\n<p>The map the robot made of the house before, and its way through "
+      "it.</p>\n" +
+      image(map_png, "map made by slam") + figures_table(survey);
+  return html_page("Coop demo", body);
 }
 
 std::string render_json(const Record& survey, const Record& collection, const Summary& summary) {

@@ -39,14 +39,15 @@ constexpr auto kTopics = std::to_array<TopicInfo>({
      "costs of the planner's grid in percent"},
     {"global_localization", "coop_msgs/GlobalLocalization", kEvent, 0, "person", "amcl",
      "localise from scratch"},
-    {"goal_pose", "geometry_msgs/PoseStamped", kEvent, 0, "person, sequencer", "global_planner",
+    {"goal_pose", "geometry_msgs/PoseStamped", kEvent, 0, "person, sequencer",
+     "global_planner, referee",
      "where base_link is to go, named by its stamp; an empty frame takes the goal of that stamp "
      "back, "
      "and without a stamp whichever is in force"},
     {"gripper", "coop_msgs/GripperState", kStream, 50, "arm_driver", "simulator",
      "suction, vacuum and the pose of the cup"},
     {"ground_truth", "coop_msgs/GroundTruth", kStream, 50, "simulator",
-     "arm_driver, camera_driver, lidar_driver", "true state of the simulated world"},
+     "arm_driver, camera_driver, lidar_driver, referee", "true state of the simulated world"},
     {"imu", "sensor_msgs/Imu", kStream, 100, "simulator", "person", "rates and accelerations"},
     {"initialpose", "geometry_msgs/PoseWithCovarianceStamped", kEvent, 0, "person", "amcl",
      "where the robot stands, told by a person"},
@@ -68,9 +69,9 @@ constexpr auto kTopics = std::to_array<TopicInfo>({
     {"mission", "coop_msgs/Mission", kLatched, 0, "person", "sequencer",
      "a mission, or a command to the one that runs"},
     {"mission_status", "coop_msgs/MissionStatus", kLatched, 0, "sequencer",
-     "dwa, global_planner, person", "state of the mission and of every egg"},
+     "dwa, global_planner, referee, person", "state of the mission and of every egg"},
     {"navigation_status", "coop_msgs/NavigationStatus", kLatched, 0, "dwa, global_planner",
-     "global_planner, sequencer", "what each navigator does about its goal"},
+     "global_planner, referee, sequencer", "what each navigator does about its goal"},
     {"odom", "nav_msgs/Odometry", kStream, 50, kBase, "amcl, dwa, slam",
      "base_link in odom, and its velocity"},
     {"particle_cloud", "geometry_msgs/PoseArray", kStream, 0, "amcl", "person",
@@ -90,7 +91,7 @@ constexpr auto kTopics = std::to_array<TopicInfo>({
      "all", "moving transforms"},
     {"tf_static", "tf2_msgs/TFMessage", kLatched, 0,
      "arm_driver, camera_driver, lidar_driver, simulator", "all", "fixed transforms"},
-    {"world", "coop_msgs/World", kLatched, 0, "simulator", "camera_driver, lidar_driver",
+    {"world", "coop_msgs/World", kLatched, 0, "simulator", "camera_driver, lidar_driver, referee",
      "the simulated world at the start"},
 });
 

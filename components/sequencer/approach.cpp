@@ -11,9 +11,9 @@ void ApproachConfig::describe(config::Fields& fields) {
                 {.unit = "m", .help = "from base_link to the egg", .min = 0.1, .max = 3});
   fields.integer("headings", headings,
                  {.help = "poses tried on the circle around the egg", .min = 1, .max = 360});
-  fields.number("reach_along", reach_along,
+  fields.number("reach_along", reach.along,
                 {.unit = "m", .help = "tolerance along the heading", .min = 0, .max = 1});
-  fields.number("reach_across", reach_across,
+  fields.number("reach_across", reach.across,
                 {.unit = "m", .help = "tolerance across the heading", .min = 0, .max = 1});
 }
 
@@ -59,8 +59,7 @@ std::optional<Pose2> choose_approach(const Pose2& robot_in_map, const Eigen::Vec
 bool is_within_reach(const Pose2& robot_in_map, const Eigen::Vector2d& egg_in_map,
                      const ApproachConfig& config) {
   const Eigen::Vector2d egg_in_base = robot_in_map.inverse() * egg_in_map;
-  return std::abs(egg_in_base.x() - config.distance) <= config.reach_along &&
-         std::abs(egg_in_base.y()) <= config.reach_across;
+  return config.reach.contains(egg_in_base - Eigen::Vector2d(config.distance, 0.0));
 }
 
 }  // namespace coop::sequencer

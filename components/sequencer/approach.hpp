@@ -4,14 +4,14 @@
 
 #include "core/config/fields.hpp"
 #include "core/pose.hpp"
+#include "core/robot/working_range.hpp"
 
 namespace coop::sequencer {
 
 struct ApproachConfig {
-  double distance = 0.92;      ///< m, d_pe: from base_link to the egg
-  int headings = 24;           ///< poses tried on the circle around the egg
-  double reach_along = 0.10;   ///< m, the egg may lie this much nearer or farther on arrival
-  double reach_across = 0.12;  ///< m, and this much to the side
+  double distance = 0.92;     ///< m, d_pe: from base_link to the egg
+  int headings = 24;          ///< poses tried on the circle around the egg
+  robot::WorkingRange reach;  ///< where the egg may lie on arrival
 
   void describe(config::Fields& fields);
 };

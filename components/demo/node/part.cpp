@@ -5,7 +5,7 @@
 
 #include <iostream>
 
-#include "demo/node/child_process.hpp"
+#include "core/child_process.hpp"
 #include "demo/node/observer.hpp"
 #include "runtime/dds_transport.hpp"
 #include "runtime/stop_signal.hpp"

@@ -1,0 +1,160 @@
+#include "referee/node/referee_node.hpp"
+
+#include <coop_msgs/msg/World.h>
+#include <geometry_msgs/msg/PoseStamped.h>
+
+#include "conversions/geometry.hpp"
+#include "conversions/time.hpp"
+#include "conversions/world.hpp"
+#include "core/config/error.hpp"
+#include "core/csv.hpp"
+
+namespace coop::referee {
+
+using coop_msgs::msg::GroundTruth;
+using coop_msgs::msg::MissionStatus;
+using coop_msgs::msg::NavigationStatus;
+using runtime::Qos;
+namespace EggConstants = coop_msgs::msg::EggStatus_Constants;
+namespace MissionConstants = coop_msgs::msg::MissionStatus_Constants;
+namespace NavigationConstants = coop_msgs::msg::NavigationStatus_Constants;
+
+namespace {
+
+constexpr auto kStepPeriod = std::chrono::milliseconds(20);
+constexpr auto kPatience = std::chrono::seconds(1);
+
+Eigen::Vector2d working_point_of(const std::string& robot) {
+  return robot::RobotModel::load(robot).mount(robot::kWorkingPoint).translation().head<2>();
+}
+
+MissionEgg::Phase to_phase(std::uint8_t state) {
+  switch (state) {
+    case EggConstants::SEEN:
+    case EggConstants::QUEUED:
+      return MissionEgg::Phase::kWaiting;
+    case EggConstants::APPROACHING:
+      return MissionEgg::Phase::kApproaching;
+    case EggConstants::PICKING:
+      return MissionEgg::Phase::kPicking;
+    default:
+      return MissionEgg::Phase::kOver;
+  }
+}
+
+NavigationView::State to_state(std::uint8_t state) {
+  if (state == NavigationConstants::ARRIVED) return NavigationView::State::kArrived;
+  if (state == NavigationConstants::FAILED) return NavigationView::State::kFailed;
+  return NavigationView::State::kUnderWay;
+}
+
+}  // namespace
+
+void RefereeNodeConfig::describe(config::Fields& fields) {
+  fields.text("robot", robot, {.help = "URDF of the robot: the arm's working point"});
+  fields.text("file", file, {.help = "table of the attempts, in the run's folder"});
+  fields.number("time_limit", time_limit,
+                {.unit = "s",
+                 .help = "of the mission, by its clock, then the run is over; 0: none",
+                 .min = 0});
+  referee.describe(fields);
+}
+
+void RefereeNode::check(const Config& config) {
+  (void)working_point_of(config.robot);
+}
+
+RefereeNode::RefereeNode(runtime::Node& node, const Config& config)
+    : node_(node),
+      config_(config),
+      referee_(config.referee, working_point_of(config.robot)),
+      transforms_(node.transforms()),
+      moments_("map", kPatience, 200) {
+  const auto path = node.options().run_dir / config.file;
+  out_.open(path, std::ios::trunc);
+  out_ << csv_line(attempt_columns()) << std::flush;
+  if (!out_) throw config::Error("cannot write " + path.string());
+  subscribe();
+  node.every(kStepPeriod, [this] { step(); });
+  node.on_stop([this] {
+    referee_.end();
+    write_finished();
+  });
+}
+
+void RefereeNode::subscribe() {
+  node_.subscribe<coop_msgs::msg::World>("world", Qos::kStateLatched,
+                                         [this](const coop_msgs::msg::World& message) {
+                                           const auto world = conversions::from_msg(message);
+                                           if (world) referee_.begin(*world);
+                                         });
+  node_.subscribe<GroundTruth>("ground_truth", Qos::kSensorStream,
+                               [this](const GroundTruth& message) { receive(message); });
+  node_.subscribe<geometry_msgs::msg::PoseStamped>(
+      "goal_pose", Qos::kEvent, [this](const geometry_msgs::msg::PoseStamped& message) {
+        const auto goal = conversions::from_msg(message);
+        // A goal without a frame is one taken back.
+        if (!goal || goal->frame_id.empty()) return;
+        referee_.hear_goal(std::to_string(to_nanoseconds(goal->stamp)));
+      });
+  node_.subscribe<MissionStatus>("mission_status", Qos::kStateLatched,
+                                 [this](const MissionStatus& message) { receive(message); });
+  node_.subscribe<NavigationStatus>("navigation_status", Qos::kStateLatched,
+                                    [this](const NavigationStatus& message) { receive(message); });
+}
+
+void RefereeNode::receive(const GroundTruth& message) {
+  const auto truth = conversions::from_msg(message);
+  if (!truth) return;
+  referee_.see(*truth);
+  moments_.push({truth->stamp, truth->robot_in_world}, "base_link", truth->stamp);
+}
+
+void RefereeNode::receive(const NavigationStatus& message) {
+  NavigationView view;
+  view.source = message.source() == "dwa" ? NavigationView::Source::kDriver
+                                          : NavigationView::Source::kPlanner;
+  view.state = to_state(message.state());
+  view.goal_id = message.goal_id();
+  referee_.hear(view);
+}
+
+void RefereeNode::receive(const MissionStatus& message) {
+  if (message.state() != MissionConstants::IDLE && mission_begun_ == Time{}) {
+    mission_begun_ = node_.now();
+  }
+  MissionView view;
+  view.ended =
+      message.state() == MissionConstants::DONE || message.state() == MissionConstants::FAILED;
+  for (const auto& egg : message.eggs()) {
+    view.eggs.push_back({.id = egg.egg_id(),
+                         .phase = to_phase(egg.state()),
+                         .tries = egg.attempts(),
+                         .reason = egg.reason(),
+                         .egg_in_map = {egg.position().x(), egg.position().y()}});
+  }
+  referee_.hear(view);
+}
+
+void RefereeNode::step() {
+  moments_.process(
+      transforms_, node_.now(), [this](const Moment& moment, const Pose3& believed_in_map) {
+        referee_.locate(moment.stamp, moment.robot_in_world, to_pose2(believed_in_map));
+      });
+  const bool time_is_up = config_.time_limit > 0.0 && mission_begun_ != Time{} &&
+                          node_.now() - mission_begun_ > seconds(config_.time_limit);
+  if (time_is_up) referee_.end();
+  write_finished();
+  if (referee_.has_ended()) node_.finish(time_is_up ? "time is up" : "the mission is over");
+}
+
+void RefereeNode::write_finished() {
+  for (const Attempt& attempt : referee_.take_finished()) {
+    out_ << csv_line(to_row(attempt, node_.options().seed, ++rows_)) << std::flush;
+    node_.log().info("attempt {}: egg '{}' {} {}", rows_, attempt.egg,
+                     attempt.in_range ? "in range" : "missed:", to_string(attempt.cause));
+  }
+  if (!out_) node_.set_degraded("cannot write " + config_.file);
+}
+
+}  // namespace coop::referee

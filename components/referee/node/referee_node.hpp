@@ -1,0 +1,54 @@
+#pragma once
+#include <coop_msgs/msg/GroundTruth.h>
+#include <coop_msgs/msg/MissionStatus.h>
+#include <coop_msgs/msg/NavigationStatus.h>
+
+#include <fstream>
+#include <string>
+
+#include "core/robot/robot_model.hpp"
+#include "referee/referee.hpp"
+#include "runtime/node.hpp"
+#include "runtime/stamped_queue.hpp"
+
+namespace coop::referee {
+
+struct RefereeNodeConfig {
+  std::string robot = "config/robot/egg_collector.urdf";
+  std::string file = "attempts.csv";  ///< in the run's folder
+  double time_limit = 0.0;            ///< s of mission, then the run is over; 0: none
+  RefereeConfig referee;
+
+  void describe(config::Fields& fields);
+};
+
+/// Judges the attempts of a simulated mission, one row of a file each, and ends with the mission.
+class RefereeNode {
+ public:
+  using Config = RefereeNodeConfig;
+  static void check(const Config& config);
+  RefereeNode(runtime::Node& node, const Config& config);
+
+ private:
+  void subscribe();
+  void receive(const coop_msgs::msg::GroundTruth& message);
+  void receive(const coop_msgs::msg::MissionStatus& message);
+  void receive(const coop_msgs::msg::NavigationStatus& message);
+  void step();
+  void write_finished();
+
+  runtime::Node& node_;
+  Config config_;
+  Referee referee_;
+  const TransformBuffer& transforms_;
+  struct Moment {
+    Time stamp;
+    Pose2 robot_in_world;
+  };
+  runtime::StampedQueue<Moment> moments_;
+  std::ofstream out_;
+  int rows_ = 0;
+  Time mission_begun_{};
+};
+
+}  // namespace coop::referee
