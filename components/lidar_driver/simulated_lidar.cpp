@@ -32,6 +32,11 @@ void SimulatedLidarConfig::describe(config::Fields& fields) {
                 {.unit = "m", .help = "farthest range", .min = 0.1, .max = 300});
   fields.number("range_noise", range_noise,
                 {.unit = "m", .help = "deviation of one range", .min = 0, .max = 1});
+  fields.number("range_noise_share", range_noise_share,
+                {.unit = "1", .help = "deviation as a share of the range", .min = 0, .max = 0.2});
+  fields.number(
+      "mount_yaw_spread", mount_yaw_spread,
+      {.unit = "rad", .help = "deviation over runs of how it is mounted", .min = 0, .max = 0.5});
   fields.number("dropout", dropout,
                 {.unit = "1", .help = "share of beams without a measurement", .min = 0, .max = 1});
 }
@@ -43,6 +48,8 @@ void SimulatedLidarConfig::validate() const {
 SimulatedLidar::SimulatedLidar(const SimulatedLidarConfig& config, const world::World& world,
                                const Pose2& laser_in_base, std::uint64_t seed)
     : config_(config), walls_(world.grid), laser_in_base_(laser_in_base), seed_(seed) {
+  RandomStream mount(seed, "lidar/mount");
+  laser_in_base_.yaw += mount.normal(0.0, config.mount_yaw_spread);
   for (int i = 0; i < config.beams; ++i) streams_.push_back("lidar/beam/" + std::to_string(i));
 }
 
@@ -74,7 +81,11 @@ void SimulatedLidar::measure(const world::GroundTruth& truth, LaserScan& scan) c
     double range = true_range(truth, laser_in_world.position(), {std::cos(angle), std::sin(angle)});
     RandomStream noise(seed, streams_[i]);
     const bool lost = noise.uniform() < config_.dropout;
-    range += noise.normal(0.0, config_.range_noise);
+    const double deviation = noise.normal();
+    // Nothing met stays nothing met: infinity times zero would be no number.
+    if (std::isfinite(range)) {
+      range += deviation * (config_.range_noise + config_.range_noise_share * range);
+    }
     if (lost) {
       range = kNoMeasurement;
     } else if (range > config_.range_max) {

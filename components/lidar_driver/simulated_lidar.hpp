@@ -14,10 +14,12 @@ namespace coop::lidar_driver {
 /// counter-clockwise.
 struct SimulatedLidarConfig {
   int beams = 360;
-  double range_min = 0.15;    ///< m
-  double range_max = 12.0;    ///< m
-  double range_noise = 0.01;  ///< m, deviation of one range
-  double dropout = 0.002;     ///< share of beams without a measurement, whatever is there
+  double range_min = 0.15;         ///< m
+  double range_max = 12.0;         ///< m
+  double range_noise = 0.01;       ///< m, deviation of one range
+  double range_noise_share = 0.0;  ///< of the range, on top
+  double mount_yaw_spread = 0.0;   ///< rad, deviation over runs of how it is mounted
+  double dropout = 0.002;          ///< share of beams without a measurement, whatever is there
 
   void describe(config::Fields& fields);
   void validate() const;  ///< throws config::Error

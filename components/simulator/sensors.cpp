@@ -31,14 +31,21 @@ void WheelSensorConfig::describe(config::Fields& fields) {
       {.unit = "rad", .help = "indicated minus set steering angle", .min = -0.3, .max = 0.3});
   fields.number("steering_noise", steering_noise,
                 {.unit = "rad", .help = "deviation of one steering reading", .min = 0, .max = 0.3});
+  fields.number("scale_spread", scale_spread,
+                {.unit = "1",
+                 .help = "deviation over runs of each wheel's indicated / rolled distance",
+                 .min = 0,
+                 .max = 0.2});
   fields.section("odometry", odometry);
 }
 
 WheelSensor::WheelSensor(const WheelSensorConfig& config, const vehicle::AckermannGeometry& base,
                          std::uint64_t seed)
-    : config_(config),
-      noise_(seed, "simulator/steering_sensor"),
-      odometry_(config.odometry, base) {}
+    : config_(config), noise_(seed, "simulator/steering_sensor"), odometry_(config.odometry, base) {
+  RandomStream wear(seed, "simulator/wheel_scale");
+  config_.left_scale += wear.normal(0.0, config.scale_spread);
+  config_.right_scale += wear.normal(0.0, config.scale_spread);
+}
 
 void WheelSensor::roll(double left, double right) {
   left_ += left * config_.left_scale;

@@ -13,6 +13,7 @@ struct WheelSensorConfig {
   double right_scale = 1.002;    ///< the same on the right
   double steering_bias = 0.002;  ///< rad, indicated minus set
   double steering_noise = 0.001;  ///< rad, deviation of one reading
+  double scale_spread = 0.0;      ///< deviation over runs of each wheel's scale
   vehicle::WheelOdometryConfig odometry;
 
   void describe(config::Fields& fields);

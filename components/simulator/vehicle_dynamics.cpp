@@ -38,6 +38,21 @@ void SlipConfig::describe(config::Fields& fields) {
                  .max = 1});
 }
 
+void ActuatorErrorConfig::describe(config::Fields& fields) {
+  fields.number("speed", speed,
+                {.unit = "1", .help = "deviation of the speed's set point", .min = 0, .max = 0.5});
+  fields.number(
+      "steering", steering,
+      {.unit = "rad", .help = "deviation of the steering's set point", .min = 0, .max = 0.3});
+  fields.number("correlation_time", correlation_time,
+                {.unit = "s", .help = "over which these errors wander", .min = 0.01, .max = 1000});
+  fields.number("steering_offset", steering_offset,
+                {.unit = "rad",
+                 .help = "deviation over runs of the true minus the indicated angle",
+                 .min = 0,
+                 .max = 0.3});
+}
+
 void VehicleConfig::describe(config::Fields& fields) {
   fields.number("speed_time_constant", speed_time_constant,
                 {.unit = "s", .help = "lag of the drive behind its set point", .min = 0, .max = 5});
@@ -48,21 +63,40 @@ void VehicleConfig::describe(config::Fields& fields) {
       "steering_offset", steering_offset,
       {.unit = "rad", .help = "true minus indicated steering angle", .min = -0.3, .max = 0.3});
   fields.section("slip", slip);
+  fields.section("actuators", actuators);
 }
 
 VehicleDynamics::VehicleDynamics(const VehicleConfig& config,
                                  const vehicle::AckermannGeometry& base, const Pose2& start,
                                  std::uint64_t seed)
-    : config_(config), base_(base), slip_noise_(seed, "simulator/slip") {
+    : config_(config),
+      base_(base),
+      slip_noise_(seed, "simulator/slip"),
+      actuator_noise_(seed, "simulator/actuators") {
   state_.robot_in_world = start;
+  RandomStream adjustment(seed, "simulator/steering_offset");
+  config_.steering_offset += adjustment.normal(0.0, config.actuators.steering_offset);
+}
+
+/// A step of both errors' Gauss-Markov processes, which keeps their deviations.
+void VehicleDynamics::wander(double dt) {
+  const ActuatorErrorConfig& errors = config_.actuators;
+  const double kept = std::exp(-dt / errors.correlation_time);
+  const double fresh = std::sqrt(1.0 - kept * kept);
+  state_.speed_error =
+      kept * state_.speed_error + fresh * actuator_noise_.normal(0.0, errors.speed);
+  state_.steering_error =
+      kept * state_.steering_error + fresh * actuator_noise_.normal(0.0, errors.steering);
 }
 
 VehicleMotion VehicleDynamics::roll(const vehicle::DriveSetpoint& setpoint, double dt) {
-  state_.speed = lag(state_.speed, setpoint.speed, dt, config_.speed_time_constant);
+  wander(dt);
+  state_.speed = lag(state_.speed, setpoint.speed * (1.0 + state_.speed_error), dt,
+                     config_.speed_time_constant);
   if (setpoint.speed == 0.0 && std::abs(state_.speed) < kBreakaway) state_.speed = 0.0;
-  state_.steering =
-      std::clamp(lag(state_.steering, setpoint.steering, dt, config_.steering_time_constant),
-                 -base_.max_steering_angle, base_.max_steering_angle);
+  state_.steering = std::clamp(lag(state_.steering, setpoint.steering + state_.steering_error, dt,
+                                   config_.steering_time_constant),
+                               -base_.max_steering_angle, base_.max_steering_angle);
 
   const vehicle::WheelSpeeds wheels = vehicle::wheel_speeds(base_, state_.speed, state_.steering);
   VehicleMotion motion;

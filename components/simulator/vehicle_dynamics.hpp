@@ -19,21 +19,36 @@ struct SlipConfig {
   void describe(config::Fields& fields);
 };
 
+/// Actuators that do not do quite as they are told: errors of the set points that wander
+/// (first-order Gauss-Markov), and an adjustment of the steering that is drawn once a run. None by
+/// default.
+struct ActuatorErrorConfig {
+  double speed = 0.0;             ///< share of the speed, deviation
+  double steering = 0.0;          ///< rad, deviation
+  double correlation_time = 1.0;  ///< s
+  double steering_offset = 0.0;   ///< rad, deviation over runs; on top of VehicleConfig's
+
+  void describe(config::Fields& fields);
+};
+
 struct VehicleConfig {
   double speed_time_constant =
       0.12;  ///< s, first-order lag of the drive motor behind its set point
   double steering_time_constant = 0.08;  ///< s, the same of the steering
   double steering_offset = 0.0;          ///< rad, true minus indicated angle: badly adjusted rods
   SlipConfig slip;
+  ActuatorErrorConfig actuators;
 
   void describe(config::Fields& fields);
 };
 
 struct VehicleState {
   Pose2 robot_in_world;
-  Twist2 velocity;        ///< over ground, in base_link
-  double speed = 0.0;     ///< at which the drive rolls, m/s at base_link
-  double steering = 0.0;  ///< as indicated, rad
+  Twist2 velocity;              ///< over ground, in base_link
+  double speed = 0.0;           ///< at which the drive rolls, m/s at base_link
+  double steering = 0.0;        ///< as indicated, rad
+  double speed_error = 0.0;     ///< of the drive's set point, as a share
+  double steering_error = 0.0;  ///< of the steering's set point, rad
 };
 
 /// What happened in one tick.
@@ -63,14 +78,17 @@ class VehicleDynamics {
 
   template <class Archive>
   void persist(Archive& archive) {
-    archive(state_, slip_noise_);
+    archive(state_, slip_noise_, actuator_noise_);
   }
 
  private:
+  void wander(double dt);
+
   VehicleConfig config_;
   vehicle::AckermannGeometry base_;
   VehicleState state_;
   RandomStream slip_noise_;
+  RandomStream actuator_noise_;
 };
 
 }  // namespace coop::simulator

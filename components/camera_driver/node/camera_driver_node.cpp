@@ -13,10 +13,27 @@ constexpr std::array<std::string_view, 2> kBackends = {"sim", "files"};
 
 }  // namespace
 
+void PlacementErrorConfig::describe(config::Fields& fields) {
+  fields.number("mount_position", mount_position,
+                {.unit = "m",
+                 .help = "deviation over runs of the camera's place, each axis",
+                 .min = 0,
+                 .max = 0.5});
+  fields.number("mount_angle", mount_angle,
+                {.unit = "rad",
+                 .help = "deviation over runs of the camera's direction, about each axis",
+                 .min = 0,
+                 .max = 0.5});
+  fields.number(
+      "detection", detection,
+      {.unit = "m", .help = "deviation of each detection, each axis", .min = 0, .max = 1});
+}
+
 void SimulationConfig::describe(config::Fields& fields) {
   fields.number("rate", rate,
                 {.unit = "Hz", .help = "frames a second of simulated time", .min = 0.1, .max = 50});
   fields.section("camera", camera);
+  fields.section("errors", errors);
 }
 
 void FilesConfig::describe(config::Fields& fields) {

@@ -9,8 +9,18 @@
 
 namespace coop::camera_driver {
 
+/// Errors of the eggs' places that the detector cannot know of. None by default.
+struct PlacementErrorConfig {
+  double mount_position = 0.0;  ///< m, deviation over runs of the camera's place, each axis
+  double mount_angle = 0.0;     ///< rad, deviation over runs of its direction, about each axis
+  double detection = 0.0;       ///< m, deviation of each detection's place, each axis
+
+  void describe(config::Fields& fields);
+};
+
 struct SimulationConfig {
   double rate = 5.0;  ///< Hz, of simulated time
+  PlacementErrorConfig errors;
   SimulatedCameraConfig camera;
 
   void describe(config::Fields& fields);

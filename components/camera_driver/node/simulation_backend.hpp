@@ -19,7 +19,10 @@ class SimulationBackend {
 
  private:
   void measure(const world::GroundTruth& truth);
+  void displace(std::vector<Detection>& eggs, Time stamp) const;
 
+  std::uint64_t seed_;
+  double detection_error_;  ///< m
   EggDetector detector_;
   std::optional<SimulatedCamera> camera_;
   Frame frame_;
