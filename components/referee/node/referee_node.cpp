@@ -21,7 +21,7 @@ namespace NavigationConstants = coop_msgs::msg::NavigationStatus_Constants;
 
 namespace {
 
-constexpr auto kStepPeriod = std::chrono::milliseconds(20);
+constexpr auto kStepPeriod = std::chrono::milliseconds(100);
 constexpr auto kPatience = std::chrono::seconds(1);
 
 Eigen::Vector2d working_point_of(const std::string& robot) {
@@ -88,8 +88,10 @@ void RefereeNode::subscribe() {
                                            const auto world = conversions::from_msg(message);
                                            if (world) referee_.begin(*world);
                                          });
-  node_.subscribe<GroundTruth>("ground_truth", Qos::kSensorStream,
-                               [this](const GroundTruth& message) { receive(message); });
+  // Every sample counts, but none needs an answer of its own.
+  node_.subscribe<GroundTruth>(
+      "ground_truth", Qos::kSensorStream, [this](const GroundTruth& message) { receive(message); },
+      runtime::Attention::kPatient);
   node_.subscribe<geometry_msgs::msg::PoseStamped>(
       "goal_pose", Qos::kEvent, [this](const geometry_msgs::msg::PoseStamped& message) {
         const auto goal = conversions::from_msg(message);

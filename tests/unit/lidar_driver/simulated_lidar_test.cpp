@@ -149,5 +149,35 @@ TEST(SimulatedLidar, SeedsAndStampsAndBeamsDifferInTheirNoise) {
   EXPECT_NE(scan.ranges[180], scan.ranges[0]);  // both walls are 4 m away
 }
 
+TEST(SimulatedLidar, NoiseMayGrowWithTheRange) {
+  SimulatedLidarConfig config = kCross;
+  config.range_noise_share = 0.02;
+  const SimulatedLidar lidar(config, room(), {}, 1);
+  double squares = 0.0;
+  constexpr int kScans = 2000;
+  for (int i = 0; i < kScans; ++i) {
+    // The beam ahead meets the wall 4 m away.
+    const LaserScan scan = measure(lidar, robot_at({4.0, 1.5, 0.0}, 2.0 + 0.1 * i));
+    const double error = static_cast<double>(scan.ranges[2]) - 4.0;
+    squares += error * error;
+  }
+  EXPECT_NEAR(std::sqrt(squares / kScans), 0.08, 0.005);
+}
+
+TEST(SimulatedLidar, ItsMountingIsDrawnOnceARun) {
+  SimulatedLidarConfig config = kCross;
+  config.mount_yaw_spread = 0.05;
+  double squares = 0.0;
+  constexpr int kRuns = 400;
+  for (int seed = 0; seed < kRuns; ++seed) {
+    const SimulatedLidar lidar(config, room(), {}, static_cast<std::uint64_t>(seed));
+    const double ahead = static_cast<double>(measure(lidar, robot_at({4.0, 1.5, 0.0})).ranges[2]);
+    EXPECT_EQ(static_cast<double>(measure(lidar, robot_at({4.0, 1.5, 0.0}, 3.0)).ranges[2]), ahead);
+    const double yaw = std::acos(std::min(1.0, 4.0 / ahead));
+    squares += yaw * yaw;
+  }
+  EXPECT_NEAR(std::sqrt(squares / kRuns), 0.05, 0.006);
+}
+
 }  // namespace
 }  // namespace coop::lidar_driver
