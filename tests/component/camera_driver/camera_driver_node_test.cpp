@@ -68,6 +68,60 @@ TEST_F(CameraDriverNodeTest, tells_where_an_egg_lies_at_the_stamp_of_the_frame) 
   EXPECT_NEAR(egg_in_base.z(), world::kEggHalfWidth, 0.02);
 }
 
+/// Places of one egg in base_link, as told by a camera with the errors of that seed.
+std::vector<Eigen::Vector3d> places_told(CameraDriverConfig config, std::uint64_t seed,
+                                         const PlacementErrorConfig& errors, Duration duration) {
+  coop::test::ComponentFixture fixture;
+  coop::test::SimulatedWorld simulator(fixture);
+  config.sim.errors = errors;
+  const auto messages = fixture.collect<Detection3DArray>("eggs", Qos::kEvent);
+  runtime::Options options;
+  options.seed = seed;
+  fixture.add<CameraDriverNode>("camera_driver", config, options);
+  simulator.scene.robot_in_world = {4.0, 1.5, 0.0};
+  simulator.scene.eggs = {{"egg_1", {5.5, 1.4, world::kEggHalfWidth}, world::EggState::kOnFloor}};
+  simulator.publish_world();
+  simulator.publish_truth(duration);
+  const Pose3 camera_in_base =
+      robot::RobotModel::load(config.robot).mount(robot::kCameraOpticalFrame);
+  std::vector<Eigen::Vector3d> places;
+  for (const auto& message : *messages) {
+    const auto seen = conversions::from_msg(message).value();
+    for (const Detection& egg : seen.value) {
+      places.push_back(camera_in_base * egg.position);
+    }
+  }
+  return places;
+}
+
+TEST_F(CameraDriverNodeTest, a_camera_mounted_askew_misplaces_every_egg_alike) {
+  const PlacementErrorConfig askew{.mount_position = 0.0, .mount_angle = 0.03, .detection = 0.0};
+  double squares = 0.0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const auto places = places_told(config_, seed, askew, 1s);
+    ASSERT_GE(places.size(), 4U);
+    for (const auto& place : places) EXPECT_LT((place - places.front()).norm(), 0.03);
+    squares += (places.front() - Eigen::Vector3d(1.5, -0.1, world::kEggHalfWidth)).squaredNorm();
+  }
+  // 0.03 rad about two axes across a ray of some 1.6 m.
+  EXPECT_GT(std::sqrt(squares / 6), 0.02);
+  EXPECT_LT(std::sqrt(squares / 6), 0.15);
+}
+
+TEST_F(CameraDriverNodeTest, the_error_of_a_detection_is_a_function_of_seed_and_stamp) {
+  const PlacementErrorConfig scattered{
+      .mount_position = 0.0, .mount_angle = 0.0, .detection = 0.02};
+  const auto places = places_told(config_, 1, scattered, 8s);
+  ASSERT_GE(places.size(), 35U);
+  double squares = 0.0;
+  for (const auto& place : places) {
+    squares += (place - Eigen::Vector3d(1.5, -0.1, world::kEggHalfWidth)).squaredNorm();
+  }
+  EXPECT_NEAR(std::sqrt(squares / static_cast<double>(places.size())), 0.02 * std::sqrt(3.0),
+              0.008);
+  EXPECT_EQ(places_told(config_, 1, scattered, 8s), places);
+}
+
 TEST_F(CameraDriverNodeTest, says_that_it_sees_none) {
   simulator_.publish_world();
   simulator_.publish_truth(400ms);
