@@ -22,6 +22,9 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.first_seed, "of each point's first run")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--set", options.settings, "key=value for every run; may be repeated");
+  app.add_option("--only", options.only,
+                 "make the runs of these numbers and no report: a task of many")
+      ->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   try {
     return coop::sweep::run_sweep(options);

@@ -96,9 +96,11 @@ Sweep load(const ProgramOptions& options) {
 }
 
 /// The runs without success; their old results go, so that a file counts as one of this call.
-std::vector<Run> runs_to_make(const Sweep& sweep, const std::vector<Run>& planned) {
+std::vector<Run> runs_to_make(const Sweep& sweep, const std::vector<Run>& planned,
+                              const std::vector<int>& only) {
   std::vector<Run> missing;
   for (const Run& run : planned) {
+    if (!only.empty() && std::ranges::find(only, run.number) == only.end()) continue;
     if (is_finished(sweep.folder, sweep.config, run)) continue;
     std::filesystem::remove(result_file(sweep.folder, run));
     missing.push_back(run);
@@ -112,7 +114,7 @@ int run_sweep(const ProgramOptions& options) {
   const Sweep sweep = load(options);
   const std::vector<Run> planned = plan_runs(sweep.config);
   std::filesystem::create_directories(sweep.folder);
-  const std::vector<Run> missing = runs_to_make(sweep, planned);
+  const std::vector<Run> missing = runs_to_make(sweep, planned, options.only);
 
   const runtime::SystemClock clock;
   runtime::Executor executor(clock);
@@ -126,6 +128,13 @@ int run_sweep(const ProgramOptions& options) {
   });
   progress.show(count_finished(sweep, planned));
 
+  // A task among many: the report is made by the call that gathers.
+  if (!options.only.empty()) {
+    if (runtime::StopSignal::requested()) return kStopped;
+    const bool all_good = std::ranges::all_of(
+        missing, [&](const Run& run) { return is_finished(sweep.folder, sweep.config, run); });
+    return all_good ? 0 : 1;
+  }
   const std::vector<FinishedRun> finished = gather(sweep.folder, sweep.config, planned);
   write_pages(sweep.folder, render_sweep(sweep.config, planned, finished));
   const auto good =

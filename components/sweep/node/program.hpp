@@ -16,6 +16,7 @@ struct ProgramOptions {
   std::optional<int> seeds;  ///< instead of the file's
   std::optional<std::int64_t> first_seed;
   std::vector<std::string> settings;  ///< after the file's
+  std::vector<int> only;              ///< numbers of runs: make these, no report; empty: all
 };
 
 /// Makes what is missing of the sweep, then the report. Exit code 0: all runs have a result; 1:

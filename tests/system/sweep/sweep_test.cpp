@@ -29,12 +29,12 @@ class SweepSystem : public ::testing::Test {
                           "grid: [{key: sequencer.mission.settle_time, values: [0.5, 0.6]}]\n"
                           "figures: [{name: hit, column: in_range, kind: share}]\n");
   }
-  std::unique_ptr<Program> sweep(const fs::path& results) {
-    return std::make_unique<Program>(
-        "sweep",
-        std::vector<std::string>{(folder_.path() / "tiny.yaml").string(), "-o", results.string(),
-                                 "--domain", std::to_string(test_domain())},
-        folder_.path() / "out");
+  std::unique_ptr<Program> sweep(const fs::path& results,
+                                 const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{(folder_.path() / "tiny.yaml").string(), "-o",
+                                       results.string(), "--domain", std::to_string(test_domain())};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return std::make_unique<Program>("sweep", arguments, folder_.path() / "out");
   }
   TemporaryFolder folder_;
 };
@@ -63,6 +63,17 @@ TEST_F(SweepSystem, GoesOnWhereItWasStoppedAndGivesTheRowsOfOneThatWasNot) {
   const CsvTable table = parse_csv(rows);
   EXPECT_EQ(table.rows.size(), 10U) << "five eggs in each of two runs";
   EXPECT_TRUE(fs::exists(whole / "report.html"));
+}
+
+TEST_F(SweepSystem, OneRunOfManyIsMadeAloneAndGatheredLater) {
+  const fs::path results = folder_.path() / "results";
+  auto task = sweep(results, {"--only", "2"});
+  const auto ended = task->wait(kLimit);
+  ASSERT_TRUE(ended);
+  EXPECT_EQ(ended->code, 0) << task->output();
+  EXPECT_TRUE(fs::exists(results / "runs/0002/result.json"));
+  EXPECT_FALSE(fs::exists(results / "runs/0001"));
+  EXPECT_FALSE(fs::exists(results / "report.html"));
 }
 
 }  // namespace
