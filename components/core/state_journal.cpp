@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "core/atomic_file.hpp"
+#include "core/hash.hpp"
 
 namespace coop {
 namespace {
@@ -23,9 +24,10 @@ struct BlockHeader {
 };
 
 std::uint64_t checksum(std::uint64_t number, std::string_view record) {
-  std::uint64_t hash = 0xCBF29CE484222325ULL ^ number;  // FNV-1a
-  for (const char c : record) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
-  return hash;
+  Fnv1a hash;
+  hash.add_word(number);
+  hash.add(record);
+  return hash.value();
 }
 
 struct Record {

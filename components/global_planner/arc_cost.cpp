@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/arc.hpp"
+
 namespace coop::global_planner {
 namespace {
 
@@ -41,7 +43,7 @@ ArcCost::Driven ArcCost::drive(const TraversalGrid& grid, const PoseChecker& pos
   const double half = 0.5 * part * arc.curvature;
   const double sine = std::sin(half);
   const double cosine = std::cos(half);
-  const double chord = part * (std::abs(half) < 1e-4 ? 1.0 - half * half / 6.0 : sine / half);
+  const double chord = part * chord_over_arc(half);
   const double turn_cosine = 1.0 - 2.0 * sine * sine;
   const double turn_sine = 2.0 * sine * cosine;
   const double weight = (arc.length < 0.0 ? config_.reverse_weight : 1.0) +

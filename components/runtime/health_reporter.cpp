@@ -9,6 +9,7 @@
 
 #include "conversions/time.hpp"
 #include "coop_msgs/msg/ComponentStatus.h"
+#include "core/hash.hpp"
 
 namespace coop::runtime {
 namespace {
@@ -49,10 +50,10 @@ std::string_view to_string(Health health) {
 }
 
 std::uint64_t config_hash(const Options& options) {
-  std::uint64_t hash = 0xCBF29CE484222325ULL;
+  Fnv1a hash;
   const auto mix = [&hash](std::string_view text) {
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
-    hash = (hash ^ 0xFFU) * 0x100000001B3ULL;
+    hash.add(text);
+    hash.add(std::uint8_t{0xFF});
   };
   if (!options.config.empty()) {
     std::ifstream in(options.config, std::ios::binary);
@@ -61,7 +62,7 @@ std::uint64_t config_hash(const Options& options) {
     mix(text.str());
   }
   for (const std::string& setting : options.settings) mix(setting);
-  return hash;
+  return hash.value();
 }
 
 HealthReporter::HealthReporter(const Options& options, std::shared_ptr<Writer> writer)

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "core/atomic_file.hpp"
+#include "core/hash.hpp"
 
 namespace coop::sequencer {
 
@@ -19,9 +20,7 @@ namespace {
 constexpr std::size_t kChecksumDigits = 16;
 
 std::string checksum(std::string_view text) {
-  std::uint64_t hash = 0xCBF29CE484222325ULL;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
-  return fmt::format("{:016x}", hash);
+  return fmt::format("{:016x}", fnv1a(text));
 }
 
 json to_json(const Pose2& pose) {

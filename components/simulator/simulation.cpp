@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "core/costmap/footprint.hpp"
+#include "core/hash.hpp"
 #include "simulator/archive.hpp"
 #include "simulator/contact.hpp"
 
@@ -17,17 +18,16 @@ constexpr double kContactEnd = 0.03;
 class Fingerprint {
  public:
   void add(const void* data, std::size_t bytes) {
-    const auto* byte = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < bytes; ++i) hash_ = (hash_ ^ byte[i]) * 0x100000001B3ULL;  // FNV-1a
+    hash_.add(std::string_view(static_cast<const char*>(data), bytes));
   }
   void add(const std::string& text) { add(text.data(), text.size() + 1); }
   template <class Number>
   requires std::is_arithmetic_v<Number>
   void add(Number value) { add(&value, sizeof value); }
-  [[nodiscard]] std::uint64_t value() const { return hash_; }
+  [[nodiscard]] std::uint64_t value() const { return hash_.value(); }
 
  private:
-  std::uint64_t hash_ = 0xCBF29CE484222325ULL;
+  Fnv1a hash_;
 };
 
 std::uint64_t fingerprint_of(const world::World& world, const std::vector<world::Animal>& animals) {

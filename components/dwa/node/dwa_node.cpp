@@ -6,7 +6,7 @@
 #include "conversions/time.hpp"
 #include "coop_msgs/msg/EmergencyStop.h"
 #include "coop_msgs/msg/MissionStatus.h"
-#include "runtime/scan_queue.hpp"
+#include "runtime/scan_subscription.hpp"
 
 namespace coop::dwa {
 

@@ -4,7 +4,7 @@
 #include "conversions/mission.hpp"
 #include "conversions/navigation.hpp"
 #include "conversions/time.hpp"
-#include "runtime/scan_queue.hpp"
+#include "runtime/scan_subscription.hpp"
 
 namespace coop::global_planner {
 
