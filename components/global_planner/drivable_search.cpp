@@ -15,6 +15,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCell = 0.1;  ///< m: states of one cell, heading and direction count as one
 constexpr int kHeadings = 72;
+/// Expanded from one sign of progress to the next.
+constexpr std::size_t kProgressStates = 500;
 constexpr std::array<double, 6> kApproachParts{1.0, 0.8, 0.6, 0.4, 0.2, 0.0};
 
 Pose2 advance(const Pose2& from, const Arc& arc) {
@@ -89,6 +91,7 @@ Result<DrivablePath, DrivableFailure> DrivableSearch::plan(const World& world, c
       const auto extra = static_cast<std::size_t>(config_.extra_states);
       if (best_node_ >= 0) last = std::min(last, expanded + extra);
     }
+    if (expanded % kProgressStates == 0) progress_();
     if (expanded++ >= last) break;
     if (nodes_.size() + 10 > static_cast<std::size_t>(config_.max_states)) {
       if (best_node_ >= 0) break;

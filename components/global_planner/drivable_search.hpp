@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,9 @@ class DrivableSearch {
     const PoseChecker& poses;
     double approach = 0.0;
   };
+  /// Called every some milliseconds while a search goes on, for whoever must show a sign of life.
+  void on_progress(std::function<void()> callback) { progress_ = std::move(callback); }
+
   /// `direction`: which way the robot drives now (1, -1), 0 at rest. Start and goal must be free.
   [[nodiscard]] Result<DrivablePath, DrivableFailure> plan(const World& world, const Pose2& start,
                                                            const Pose2& goal, int direction);
@@ -93,6 +97,7 @@ class DrivableSearch {
   [[nodiscard]] DrivablePath trace() const;
 
   DrivableConfig config_;
+  std::function<void()> progress_ = [] {};
   ReedsShepp curves_;
   TurningDistance turning_;
   ArcCost arc_cost_;

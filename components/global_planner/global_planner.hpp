@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,6 +81,9 @@ class GlobalPlanner {
  public:
   GlobalPlanner(const GlobalPlannerConfig& config, const std::vector<Eigen::Vector2d>& footprint,
                 double min_turning_radius);
+
+  /// Called every some milliseconds during a long update().
+  void on_progress(std::function<void()> callback) { planner_.on_progress(std::move(callback)); }
 
   [[nodiscard]] PlanningMap& map() { return map_; }
   [[nodiscard]] const PlanningMap& map() const { return map_; }

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -65,6 +66,9 @@ class PathPlanner {
   /// `direction`: which way the robot drives now (1, -1), 0 at rest. Poses in the costmap's frame.
   [[nodiscard]] Result<Plan, PlanFailure> plan(const Costmap& costmap, const Pose2& start,
                                                const Pose2& goal, int direction);
+
+  /// Called every some milliseconds during a long plan().
+  void on_progress(std::function<void()> callback) { search_.on_progress(std::move(callback)); }
 
   /// Whether the robot still fits along the poses, with the tight padding: a path planned with the
   /// full one does not fall at every flicker of a cell.

@@ -77,6 +77,8 @@ GlobalPlannerNode::GlobalPlannerNode(runtime::Node& node, const Config& config)
       costmap_publisher_(
           node.advertise<nav_msgs::msg::OccupancyGrid>("global_costmap", Qos::kStateLatched)),
       status_publisher_(node.advertise<NavigationStatus>("navigation_status", Qos::kStateLatched)) {
+  // A search that ends in finding nothing may take longer than a heartbeat.
+  planner_.on_progress([&node] { node.keep_alive(); });
   node.subscribe<nav_msgs::msg::OccupancyGrid>("map", Qos::kStateLatched,
                                                [this](const nav_msgs::msg::OccupancyGrid& message) {
                                                  const auto map = conversions::from_msg(message);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "global_planner/planning_map.hpp"
 #include "unit/global_planner/drawn_map.hpp"
@@ -183,6 +184,18 @@ TEST_F(PathPlannerTest, TellsThatThereIsNoWay) {
                 "#.....#.....#",  //
                 "#############"}));
   EXPECT_EQ(plan({1.5, 1.5, 0}, {4.5, 1.5, 0}).error().reason, PlanFailureReason::kNoPath);
+}
+
+TEST_F(PathPlannerTest, ShowsProgressDuringALongSearch) {
+  use(draw_room());
+  int signs = 0;
+  planner_.on_progress([&signs] { ++signs; });
+  ASSERT_TRUE(plan({1.5, 2.5, 0.0}, {4.0, 2.5, 0.0}));
+  EXPECT_GE(signs, 1);
+  const int of_an_easy_search = std::exchange(signs, 0);
+  // Backwards into a corner, turned round: hundreds of states.
+  (void)plan({1.2, 1.2, 0.0}, {1.2, 3.8, -kPi / 2.0});
+  EXPECT_GT(signs, of_an_easy_search);
 }
 
 TEST_F(PathPlannerTest, TellsThatTheRobotStandsOnAnObstacle) {
