@@ -47,6 +47,10 @@ void Referee::locate(Time stamp, const Pose2& robot_in_world, const Pose2& belie
 
 void Referee::hear_goal(const std::string& goal_id) {
   goal_id_ = goal_id;
+  if (!open_ || open_->arrived || open_->goal_id.empty()) return;
+  // Another side of the same egg, after a goal that was refused.
+  open_->goal_id = goal_id;
+  open_->given_up_by.reset();
 }
 
 void Referee::hear(const NavigationView& navigation) {

@@ -84,9 +84,9 @@ MissionActions Mission::step(const MissionSnapshot& snapshot, const MapQueries& 
   return std::exchange(actions_, {});
 }
 
-void Mission::drive_to(const Pose2& pose, Time now) {
+void Mission::drive_to(const Pose2& pose, const MissionSnapshot& snapshot, Time now) {
   // The shell stamps the goal with this time; its digits are the goal's name on all topics.
-  drive_ = Drive{{std::to_string(to_nanoseconds(now)), pose}, now, now};
+  drive_ = Drive{{std::to_string(to_nanoseconds(now)), pose}, *snapshot.robot_in_map, now, now};
   actions_.goal = drive_->goal;
   state_.goal_id = drive_->goal.goal_id;
   taken_back_ = Time{};
@@ -139,7 +139,7 @@ void Mission::step_waypoints(const MissionSnapshot& snapshot, Time now) {
   }
   const Waypoint& waypoint = state_.waypoints[state_.next_waypoint];
   if (!drive_) {
-    drive_to(waypoint.pose_in_map, now);
+    drive_to(waypoint.pose_in_map, snapshot, now);
     enter(MissionPhase::kSearching, fmt::format("to {} ({} of {})", waypoint.name,
                                                 state_.next_waypoint + 1, state_.waypoints.size()));
     return;
@@ -211,7 +211,7 @@ void Mission::finish() {
 
 void Mission::step_returning(const MissionSnapshot& snapshot, Time now) {
   if (!drive_) {
-    drive_to(state_.home_in_map, now);
+    drive_to(state_.home_in_map, snapshot, now);
     return;
   }
   const NavigationReport result = drive_result(snapshot, now);

@@ -13,13 +13,14 @@
 namespace coop::sequencer {
 
 struct MissionConfig {
-  int expected_eggs = 0;        ///< the search ends when as many are known; 0: all waypoints
-  int max_searches = 2;         ///< tours of the waypoints while fewer eggs than expected are known
-  int max_attempts = 4;         ///< approaches to one egg before it is reported as failed
-  double goal_timeout = 150.0;  ///< s for one drive
-  double goal_repeat = 2.0;     ///< s, the goal is told again, for planners that restarted
-  double pick_repeat = 3.0;     ///< s, the pick is told again under its id
-  double pick_timeout = 60.0;   ///< s for one pick
+  int expected_eggs = 0;  ///< the search ends when as many are known; 0: all waypoints
+  int max_searches = 2;   ///< tours of the waypoints while fewer eggs than expected are known
+  int max_attempts = 4;   ///< approaches to one egg before it is reported as failed
+  int max_refusals = 4;   ///< sides of an egg tried at one attempt while navigators refuse to start
+  double goal_timeout = 150.0;     ///< s for one drive
+  double goal_repeat = 2.0;        ///< s, the goal is told again, for planners that restarted
+  double pick_repeat = 3.0;        ///< s, the pick is told again under its id
+  double pick_timeout = 60.0;      ///< s for one pick
   double refresh_distance = 0.04;  ///< m, an approach pose that moved this much is told anew
   double refresh_until = 0.5;      ///< m from the goal; nearer it stays as it is
   double waypoint_radius = 0.6;    ///< m, a waypoint this near is reached: the robot drives on
@@ -118,6 +119,7 @@ class Mission {
  private:
   struct Drive {
     GoalOrder goal;
+    Pose2 from_in_map;
     Time begun{};
     Time told{};
   };
@@ -134,10 +136,11 @@ class Mission {
   void refresh_goal(const MissionSnapshot& snapshot, const EggTask& egg, const MapQueries& queries);
   /// Pictures in a row, taken from near the approach pose, that lack the egg.
   [[nodiscard]] int pictures_without(const MissionSnapshot& snapshot, const EggTask& egg);
+  [[nodiscard]] bool try_another_side(const MissionSnapshot& snapshot, EggTask& egg);
   void attempt_failed(EggTask& egg, const std::string& reason);
   void egg_not_seen(EggTask& egg);
   void enter(MissionPhase phase, const std::string& detail);
-  void drive_to(const Pose2& pose, Time now);
+  void drive_to(const Pose2& pose, const MissionSnapshot& snapshot, Time now);
   void repeat_goal(Time now);
   void note_end_of_goal(const MissionSnapshot& snapshot);
   void take_goal_back(Time now);
@@ -155,6 +158,7 @@ class Mission {
   MissionActions actions_;
   std::optional<Drive> drive_;
   std::optional<Time> arrived_;
+  int refusals_ = 0;       ///< at this attempt
   int unseen_before_ = 0;  ///< pictures in a row without the egg, of before this look
   std::optional<Time> last_look_;
   Time taken_back_{};  ///< when the goal was taken back last

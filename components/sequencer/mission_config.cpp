@@ -9,6 +9,10 @@ void MissionConfig::describe(config::Fields& fields) {
                  {.help = "tours while fewer eggs than expected are known", .min = 1, .max = 100});
   fields.integer("max_attempts", max_attempts,
                  {.help = "approaches to one egg", .min = 1, .max = 100});
+  fields.integer("max_refusals", max_refusals,
+                 {.help = "sides tried at one attempt while navigators refuse to start",
+                  .min = 0,
+                  .max = 100});
   fields.number("goal_timeout", goal_timeout,
                 {.unit = "s", .help = "for one drive", .min = 1, .max = 3600});
   fields.number("goal_repeat", goal_repeat,

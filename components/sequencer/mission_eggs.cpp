@@ -8,6 +8,13 @@
 
 // The part of the mission that is about one egg: order, approach, look, pick.
 namespace coop::sequencer {
+namespace {
+
+/// m: a robot this far from where it was told to go has begun to drive there; one that still rolls
+/// from the drive before has not.
+constexpr double kMoved = 0.3;
+
+}  // namespace
 
 /// Confirmed tracks become eggs of the mission; positions follow the tracks until the pick.
 void Mission::adopt_eggs(const MissionSnapshot& snapshot) {
@@ -94,7 +101,7 @@ void Mission::begin_approach(const MissionSnapshot& snapshot, const MapQueries& 
     // Every other side is taken: the ones that failed before are better than none.
     pose = choose_approach(*snapshot.robot_in_map, egg.egg_in_map, approach_, queries.pose_cost);
   }
-  egg.attempts += 1;
+  if (refusals_ == 0) egg.attempts += 1;
   changed_ = true;
   if (!pose) {
     attempt_failed(egg, "no free pose around the egg");
@@ -103,7 +110,21 @@ void Mission::begin_approach(const MissionSnapshot& snapshot, const MapQueries& 
   egg.phase = EggPhase::kApproaching;
   arrived_.reset();
   unseen_before_ = std::numeric_limits<int>::max();
-  drive_to(*pose, now);
+  drive_to(*pose, snapshot, now);
+}
+
+/// A drive that is refused before it began says something about this side of the egg, not about the
+/// egg: another side, without using up an attempt.
+bool Mission::try_another_side(const MissionSnapshot& snapshot, EggTask& egg) {
+  if (refusals_ >= config_.max_refusals ||
+      distance(*snapshot.robot_in_map, drive_->from_in_map) > kMoved) {
+    return false;
+  }
+  ++refusals_;
+  egg.tried_headings.push_back(drive_->goal.pose_in_map.yaw);
+  drive_.reset();
+  changed_ = true;
+  return true;
 }
 
 /// Equation 4 again while the robot comes nearer and sees the egg better.
@@ -141,9 +162,10 @@ void Mission::step_approach(const MissionSnapshot& snapshot, const MapQueries& q
       break;
     case NavigationReport::State::kArrived:
       arrived_ = now;
+      refusals_ = 0;
       break;
     case NavigationReport::State::kFailed:
-      attempt_failed(*egg, result.reason);
+      if (!try_another_side(snapshot, *egg)) attempt_failed(*egg, result.reason);
       break;
   }
 }
@@ -227,6 +249,7 @@ void Mission::attempt_failed(EggTask& egg, const std::string& reason) {
   if (drive_) egg.tried_headings.push_back(drive_->goal.pose_in_map.yaw);
   drive_.reset();
   arrived_.reset();
+  refusals_ = 0;
   egg.reason = reason;
   egg.phase = egg.attempts >= config_.max_attempts ? EggPhase::kFailed : EggPhase::kQueued;
   changed_ = true;

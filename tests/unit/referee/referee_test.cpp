@@ -110,6 +110,17 @@ TEST_F(RefereeTest, WhoGaveTheGoalUpIsNamed) {
   EXPECT_EQ(only().cause, Cause::kNoPath);
 }
 
+TEST_F(RefereeTest, AnotherSideOfTheEggAfterARefusalIsTheSameAttempt) {
+  set_out();
+  navigate(Source::kPlanner, State::kFailed);
+  referee_.hear_goal("8");
+  tell(Phase::kApproaching, 1);
+  EXPECT_TRUE(referee_.take_finished().empty());
+  navigate(Source::kPlanner, State::kFailed);  // of goal 7, told late
+  tell(Phase::kOver, 1, "not there after 150 s");
+  EXPECT_EQ(only().cause, Cause::kTimedOut);
+}
+
 TEST_F(RefereeTest, ADriverThatOnlyWaitedDidNotGiveUp) {
   set_out();
   navigate(Source::kDriver, State::kFailed);

@@ -88,7 +88,13 @@ class MissionTest : public ::testing::Test {
     robot_ = goals_.back().pose_in_map;
     navigation_ = {goals_.back().goal_id, NavigationReport::State::kArrived, ""};
   }
+  /// On the way.
   void fail_to_arrive(const std::string& reason) {
+    robot_ = *robot_ * Pose2{0.5, 0, 0};
+    refuse(reason);
+  }
+  /// Before the robot has moved.
+  void refuse(const std::string& reason) {
     navigation_ = {goals_.back().goal_id, NavigationReport::State::kFailed, reason};
   }
   void answer_pick(bool picked, const std::string& reason = "") {

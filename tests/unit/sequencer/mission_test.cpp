@@ -119,6 +119,27 @@ TEST_F(MissionTest, AnEggThatCannotBeReachedIsTriedFromAnotherSideAndThenReporte
   EXPECT_EQ(mission_.state().eggs[0].reason, "stuck");
 }
 
+TEST_F(MissionTest, SidesThatAreRefusedBeforeTheRobotMovesUseUpNoAttempt) {
+  approach_an_egg();
+  std::vector<double> headings;
+  for (int side = 0; side < 5; ++side) {
+    for (const double heading : headings) {
+      EXPECT_GT(std::abs(angle_difference(goals_.back().pose_in_map.yaw, heading)), 0.3);
+    }
+    headings.push_back(goals_.back().pose_in_map.yaw);
+    EXPECT_EQ(egg().attempts, 1) << "side " << side;
+    EXPECT_EQ(egg().phase, EggPhase::kApproaching);
+    refuse("no path");
+    step();
+    step();
+  }
+  // The fifth refusal is one too many.
+  EXPECT_EQ(egg().reason, "no path");
+  step_until_phase(MissionPhase::kDriving);
+  step();
+  EXPECT_EQ(egg().attempts, 2);
+}
+
 TEST_F(MissionTest, AnEggOutOfReachOnArrivalIsApproachedAgain) {
   mission_.start(MissionKind::kCollect, "m", {});
   add_egg("egg1", 3, 0);
