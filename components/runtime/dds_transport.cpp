@@ -32,7 +32,7 @@ struct DdsTransport::Impl {
   dds::Subscriber* subscriber = nullptr;
   std::mutex mutex;
   std::map<std::string, dds::Topic*> topics;
-  std::function<void()> match_callback = [] {};
+  std::weak_ptr<std::function<void()>> match_callback;
 
   explicit Impl(const DdsOptions& wanted);
   ~Impl();
@@ -56,7 +56,8 @@ std::string identity(const eprosima::fastrtps::rtps::GUID_t& guid) {
 /// The counterparts an endpoint is matched with at present. Told by listener threads.
 class Matches {
  public:
-  explicit Matches(std::function<void()> on_match) : on_match_(std::move(on_match)) {}
+  explicit Matches(std::weak_ptr<std::function<void()>> on_match)
+      : on_match_(std::move(on_match)) {}
   void change(const dds::InstanceHandle_t& counterpart, int change) {
     eprosima::fastrtps::rtps::GUID_t guid;
     eprosima::fastrtps::rtps::iHandle2GUID(guid, counterpart);
@@ -68,7 +69,7 @@ class Matches {
         counterparts_.erase(identity(guid));
       }
     }
-    on_match_();
+    if (const auto callback = on_match_.lock()) (*callback)();
   }
   [[nodiscard]] bool contains(const std::string& id) const {
     const std::scoped_lock lock(mutex_);
@@ -80,14 +81,14 @@ class Matches {
   }
 
  private:
-  std::function<void()> on_match_;
+  std::weak_ptr<std::function<void()>> on_match_;
   mutable std::mutex mutex_;
   std::set<std::string> counterparts_;
 };
 
 class ReaderListener : public dds::DataReaderListener {
  public:
-  ReaderListener(std::function<void()> on_data, std::function<void()> on_match)
+  ReaderListener(std::function<void()> on_data, std::weak_ptr<std::function<void()>> on_match)
       : matches(std::move(on_match)), on_data_(std::move(on_data)) {}
   void on_data_available(dds::DataReader*) override { on_data_(); }
   void on_subscription_matched(dds::DataReader*,
@@ -102,7 +103,8 @@ class ReaderListener : public dds::DataReaderListener {
 
 class WriterListener : public dds::DataWriterListener {
  public:
-  explicit WriterListener(std::function<void()> on_match) : matches(std::move(on_match)) {}
+  explicit WriterListener(std::weak_ptr<std::function<void()>> on_match)
+      : matches(std::move(on_match)) {}
   void on_publication_matched(dds::DataWriter*,
                               const dds::PublicationMatchedStatus& status) override {
     matches.change(status.last_subscription_handle, status.current_count_change);
@@ -286,8 +288,10 @@ std::unique_ptr<Reader> DdsTransport::create_reader(const std::string& topic,
                                      std::move(on_data));
 }
 
-void DdsTransport::on_match(std::function<void()> callback) {
-  impl_->match_callback = std::move(callback);
+std::shared_ptr<void> DdsTransport::on_match(std::function<void()> callback) {
+  auto kept = std::make_shared<std::function<void()>>(std::move(callback));
+  impl_->match_callback = kept;
+  return kept;
 }
 
 }  // namespace coop::runtime

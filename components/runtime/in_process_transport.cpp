@@ -19,7 +19,7 @@ struct InProcessTransport::Topic {
 struct InProcessTransport::Bus {
   std::mutex mutex;
   std::map<std::string, std::shared_ptr<Topic>> topics;
-  std::vector<std::function<void()>> match_callbacks;
+  std::vector<std::weak_ptr<std::function<void()>>> match_callbacks;
   bool complete = false;
   int endpoints_ever = 0;
 
@@ -27,12 +27,15 @@ struct InProcessTransport::Bus {
   std::string new_id(const char* kind) { return kind + std::to_string(++endpoints_ever); }
   /// Without: the callback may look at endpoints.
   void tell_match() {
-    std::vector<std::function<void()>> callbacks;
+    std::vector<std::shared_ptr<std::function<void()>>> callbacks;
     {
       const std::scoped_lock lock(mutex);
-      callbacks = match_callbacks;
+      std::erase_if(match_callbacks, [](const auto& callback) { return callback.expired(); });
+      for (const auto& callback : match_callbacks) callbacks.push_back(callback.lock());
     }
-    for (const auto& callback : callbacks) callback();
+    for (const auto& callback : callbacks) {
+      if (callback) (*callback)();
+    }
   }
 };
 
@@ -180,9 +183,11 @@ std::unique_ptr<Reader> InProcessTransport::create_reader(const std::string& nam
   return std::make_unique<BusReader>(bus_, topic(name, type), qos, std::move(on_data));
 }
 
-void InProcessTransport::on_match(std::function<void()> callback) {
+std::shared_ptr<void> InProcessTransport::on_match(std::function<void()> callback) {
+  auto kept = std::make_shared<std::function<void()>>(std::move(callback));
   const std::scoped_lock lock(bus_->mutex);
-  bus_->match_callbacks.push_back(std::move(callback));
+  bus_->match_callbacks.push_back(kept);
+  return kept;
 }
 
 }  // namespace coop::runtime

@@ -19,7 +19,7 @@ class InProcessTransport : public Transport {
                                         Qos qos) override;
   std::unique_ptr<Reader> create_reader(const std::string& topic, const MessageType& type, Qos qos,
                                         std::function<void()> on_data) override;
-  void on_match(std::function<void()> callback) override;
+  [[nodiscard]] std::shared_ptr<void> on_match(std::function<void()> callback) override;
 
  private:
   struct Topic;

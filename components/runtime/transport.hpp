@@ -61,9 +61,9 @@ class Transport {
   /// `on_data` is called from any thread when there may be something to take.
   virtual std::unique_ptr<Reader> create_reader(const std::string& topic, const MessageType& type,
                                                 Qos qos, std::function<void()> on_data) = 0;
-  /// Called from any thread when an endpoint found or lost a counterpart. Set it before the first
-  /// endpoint is made.
-  virtual void on_match(std::function<void()> callback) = 0;
+  /// Called from any thread when an endpoint found or lost a counterpart, for as long as the caller
+  /// keeps what is returned. Set it before the first endpoint is made.
+  [[nodiscard]] virtual std::shared_ptr<void> on_match(std::function<void()> callback) = 0;
 };
 
 }  // namespace coop::runtime

@@ -34,7 +34,7 @@ LockstepFollower::LockstepFollower(Executor& executor, Transport& carrier,
       name_(name),
       incarnation_(static_cast<std::uint64_t>(to_nanoseconds(SystemClock().now()))) {
   const auto wake = [&executor] { executor.wake(); };
-  carrier.on_match(wake);
+  match_watch_ = carrier.on_match(wake);
   roster_reader_ = carrier.create_reader("lockstep_roster", message_type<LockstepRoster>(),
                                          Qos::kStateLatched, wake);
   join_writer_ =

@@ -46,6 +46,7 @@ class LockstepFollower : public InputSource {
   LockstepTransport& transport_;
   std::string name_;
   std::uint64_t incarnation_;
+  std::shared_ptr<void> match_watch_;
   std::unique_ptr<Reader> roster_reader_;
   std::unique_ptr<Reader> tick_reader_;
   std::unique_ptr<Writer> join_writer_;

@@ -174,8 +174,8 @@ std::unique_ptr<Reader> LockstepTransport::create_reader(const std::string& topi
   return std::make_unique<GatedReader>(shared_, topic, type, qos, on_data);
 }
 
-void LockstepTransport::on_match(std::function<void()> callback) {
-  shared_->carrier.on_match(std::move(callback));
+std::shared_ptr<void> LockstepTransport::on_match(std::function<void()> callback) {
+  return shared_->carrier.on_match(std::move(callback));
 }
 
 std::unique_ptr<Writer> LockstepTransport::create_control_writer(const std::string& topic,

@@ -25,7 +25,7 @@ LockstepMaster::LockstepMaster(Executor& executor, Transport& carrier, LockstepT
       name_(name),
       expected_(std::move(members)) {
   const auto wake = [&executor] { executor.wake(); };
-  carrier.on_match(wake);
+  match_watch_ = carrier.on_match(wake);
   join_reader_ = carrier.create_reader("lockstep_join", message_type<LockstepJoin>(),
                                        Qos::kStateLatched, wake);
   roster_writer_ =

@@ -47,6 +47,7 @@ class LockstepMaster : public InputSource {
   LockstepTransport& transport_;
   std::string name_;
   std::vector<std::string> expected_;
+  std::shared_ptr<void> match_watch_;
   std::unique_ptr<Reader> join_reader_;
   std::unique_ptr<Reader> done_reader_;
   std::unique_ptr<Writer> roster_writer_;
