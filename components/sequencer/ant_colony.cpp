@@ -18,16 +18,6 @@ void AntColonyConfig::describe(config::Fields& fields) {
   fields.flag("closed", closed, {.help = "the tour ends where it began"});
 }
 
-double tour_cost(const CostMatrix& costs, const std::vector<std::size_t>& order, bool closed) {
-  double sum = 0.0;
-  std::size_t here = 0;
-  for (const std::size_t next : order) {
-    sum += costs.at(here, next);
-    here = next;
-  }
-  return closed && !order.empty() ? sum + costs.at(here, 0) : sum;
-}
-
 namespace {
 
 /// Shortest distance that eta = 1 / distance tells apart from none.

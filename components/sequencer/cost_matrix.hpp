@@ -27,4 +27,7 @@ struct Tour {
 [[nodiscard]] double tour_cost(const CostMatrix& costs, const std::vector<std::size_t>& order,
                                bool closed);
 
+/// The rows and columns of `nodes` alone, in that order.
+[[nodiscard]] CostMatrix part_of(const CostMatrix& costs, const std::vector<std::size_t>& nodes);
+
 }  // namespace coop::sequencer

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -28,6 +29,11 @@ json to_json(const Pose2& pose) {
 }
 Pose2 pose_from(const json& value) {
   return {value.at(0), value.at(1), value.at(2)};
+}
+
+/// JSON knows no infinity and writes null.
+double cost_from(const json& value) {
+  return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
 }
 
 json to_json(const EggTask& egg) {
@@ -94,8 +100,8 @@ MissionState state_from(const json& value) {
   state.missed_waypoints = value.at("missed").get<std::vector<std::string>>();
   for (const json& egg : value.at("eggs")) state.eggs.push_back(egg_from(egg));
   state.order = value.at("order").get<std::vector<std::string>>();
-  state.tour_cost = value.at("tour_cost");
-  state.tour_cost_alternative = value.at("tour_cost_alternative");
+  state.tour_cost = cost_from(value.at("tour_cost"));
+  state.tour_cost_alternative = cost_from(value.at("tour_cost_alternative"));
   state.current_egg = value.at("current_egg");
   state.pick_id = value.at("pick_id");
   state.goal_id = value.at("goal_id");

@@ -35,6 +35,7 @@ void PathCosts::set_costmap(const OccupancyGrid& costmap) {
 }
 
 std::optional<Cell> PathCosts::passable_near(const Eigen::Vector2d& place) const {
+  if (!place.allFinite()) return std::nullopt;
   const Cell middle = grid_.geometry().cell_of(place);
   if (grid_.passable(middle)) return middle;
   const int reach = static_cast<int>(kSearchRadius / grid_.geometry().resolution);
@@ -67,6 +68,18 @@ std::optional<double> PathCosts::pose_cost(const Pose2& robot_in_map, const Pose
   const double cost = search_.cost_to_goal(grid_.geometry().cell_of(pose_in_map.position()));
   if (!std::isfinite(cost)) return std::nullopt;
   return cost;
+}
+
+std::vector<double> PathCosts::costs_from(const Pose2& robot_in_map,
+                                          const std::vector<Eigen::Vector2d>& places_in_map) {
+  std::vector<double> costs(places_in_map.size(), std::numeric_limits<double>::infinity());
+  const auto start = passable_near(robot_in_map.position());
+  if (!start) return costs;
+  flood(*start);
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    if (const auto cell = passable_near(places_in_map[i])) costs[i] = search_.cost_to_goal(*cell);
+  }
+  return costs;
 }
 
 CostMatrix PathCosts::matrix(const Pose2& robot_in_map,

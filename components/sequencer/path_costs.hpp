@@ -25,6 +25,10 @@ class PathCosts {
   [[nodiscard]] std::optional<double> pose_cost(const Pose2& robot_in_map,
                                                 const Pose2& pose_in_map);
 
+  /// Costs from the robot to each place, by one flood; infinite: no way.
+  [[nodiscard]] std::vector<double> costs_from(const Pose2& robot_in_map,
+                                               const std::vector<Eigen::Vector2d>& places_in_map);
+
   /// From the robot (node 0) and between all places, by one flood a place (not one a pair). The
   /// cell of an egg is an obstacle itself: the nearest cell that can be driven over stands for it.
   [[nodiscard]] CostMatrix matrix(const Pose2& robot_in_map,

@@ -1,8 +1,8 @@
 #include "sequencer/sequencer.hpp"
 
+#include <algorithm>
 #include <array>
-
-#include "sequencer/held_karp.hpp"
+#include <numeric>
 
 namespace coop::sequencer {
 
@@ -19,10 +19,15 @@ void SequencerConfig::describe(config::Fields& fields) {
   fields.text("robot", robot, {.help = "URDF of the robot: its footprint"});
   fields.choice("autostart", autostart, kStarts, {.help = "mission begun by itself"});
   fields.choice("method", method, kMethods,
-                {.help = "paper: ant colony; best: exact up to 12 eggs, ant colony beyond"});
+                {.help = "paper: ant colony; best: exact up to 12 eggs, MAX-MIN ants beyond"});
+  fields.integer("max_together", max_together,
+                 {.help = "eggs ordered together, the nearest; the others follow by nearness",
+                  .min = 1,
+                  .max = 1000});
   fields.list("waypoints", waypoints);
   fields.section("tracks", tracks);
   fields.section("colony", colony);
+  fields.section("best", best);
   fields.section("approach", approach);
   fields.section("mission", mission);
   fields.section("traversal", traversal);
@@ -38,12 +43,29 @@ std::vector<Waypoint> SequencerConfig::waypoint_list() const {
   return list;
 }
 
+namespace {
+
+std::vector<Eigen::Vector2d> places_of(const std::vector<const EggTask*>& eggs) {
+  std::vector<Eigen::Vector2d> places;
+  places.reserve(eggs.size());
+  for (const EggTask* egg : eggs) places.push_back(egg->egg_in_map);
+  return places;
+}
+
+/// A stream of its own, drawn from a copy: the first one's numbers stay as they were.
+OrderingStreams to_streams(RandomStream random) {
+  RandomStream copy = random;
+  return {random, RandomStream(copy(), "max_min_ants")};
+}
+
+}  // namespace
+
 Sequencer::Sequencer(const SequencerConfig& config, const Footprint& footprint, RandomStream random)
     : config_(config),
       tracks_(config.tracks),
       costs_(footprint, config.traversal),
       mission_(config.mission, config.approach),
-      random_(random) {}
+      streams_(to_streams(random)) {}
 
 MissionActions Sequencer::step(MissionSnapshot snapshot, Time now) {
   snapshot.tracks = &tracks_.tracks();
@@ -59,24 +81,35 @@ MissionActions Sequencer::step(MissionSnapshot snapshot, Time now) {
   return actions;
 }
 
-OrderedEggs Sequencer::order(const Pose2& robot_in_map, const std::vector<const EggTask*>& eggs) {
+void Sequencer::sort_by_cost(const Pose2& robot_in_map, std::vector<const EggTask*>& eggs) {
+  const std::vector<double> costs = costs_.costs_from(robot_in_map, places_of(eggs));
+  std::vector<std::size_t> nearest(eggs.size());
+  std::iota(nearest.begin(), nearest.end(), std::size_t{0});
+  std::ranges::stable_sort(nearest, {}, [&](std::size_t i) { return costs[i]; });
+  std::vector<const EggTask*> sorted;
+  sorted.reserve(eggs.size());
+  for (const std::size_t i : nearest) sorted.push_back(eggs[i]);
+  eggs = std::move(sorted);
+}
+
+OrderedEggs Sequencer::order(const Pose2& robot_in_map, std::vector<const EggTask*> eggs) {
   OrderedEggs result;
   if (!costs_.has_costmap()) return result;
-  std::vector<Eigen::Vector2d> places;
-  for (const EggTask* egg : eggs) places.push_back(egg->egg_in_map);
-  const CostMatrix matrix = costs_.matrix(robot_in_map, places);
-  Tour tour = solve_by_ant_colony(matrix, config_.colony, random_);
-  result.alternative_cost = 0.0;
-  if (eggs.size() <= kMaxExactTargets) {
-    Tour exact = solve_exactly(matrix, config_.colony.closed);
-    result.alternative_cost = exact.cost;
-    if (config_.method == "best") {
-      result.alternative_cost = tour.cost;
-      tour = std::move(exact);
-    }
+  std::vector<const EggTask*> rest;
+  if (const auto most = static_cast<std::size_t>(config_.max_together); eggs.size() > most) {
+    sort_by_cost(robot_in_map, eggs);
+    rest.assign(eggs.begin() + static_cast<std::ptrdiff_t>(most), eggs.end());
+    eggs.resize(most);
   }
-  result.cost = tour.cost;
-  for (const std::size_t node : tour.order) result.order.push_back(eggs[node - 1]->id);
+  const auto method = config_.method == "best" ? OrderingMethod::kBest : OrderingMethod::kPaper;
+  const Ordering ordering = order_nodes(costs_.matrix(robot_in_map, places_of(eggs)), method,
+                                        config_.colony, config_.best, streams_);
+  result.cost = ordering.tour.cost;
+  result.alternative_cost = ordering.alternative_cost;
+  for (const std::size_t node : ordering.tour.order) result.order.push_back(eggs[node - 1]->id);
+  for (const EggTask* egg : rest) result.order.push_back(egg->id);
+  // No way leads there now. Last of all the mission tries them, and reports them.
+  for (const std::size_t node : ordering.unreachable) result.order.push_back(eggs[node - 1]->id);
   return result;
 }
 

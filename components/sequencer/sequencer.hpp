@@ -1,8 +1,8 @@
 #pragma once
 #include "core/config/fields.hpp"
 #include "core/random.hpp"
-#include "sequencer/ant_colony.hpp"
 #include "sequencer/mission.hpp"
+#include "sequencer/ordering.hpp"
 #include "sequencer/path_costs.hpp"
 
 namespace coop::sequencer {
@@ -19,10 +19,12 @@ struct WaypointConfig {
 struct SequencerConfig {
   std::string robot = "config/robot/egg_collector.urdf";
   std::string autostart = "none";  ///< none, collect, survey
-  std::string method = "paper";    ///< paper: ant colony; best: exact up to 12 eggs
+  std::string method = "paper";    ///< paper: ant colony; best: exact, or MAX-MIN ants
+  int max_together = 100;          ///< eggs ordered together: the nearest; the others follow
   std::vector<WaypointConfig> waypoints;
   EggTracksConfig tracks;
   AntColonyConfig colony;
+  MaxMinConfig best;
   ApproachConfig approach;
   MissionConfig mission;
   TraversalConfig traversal{.restricted_weight = 6.0, .unknown_weight = 3.0, .allow_unknown = true};
@@ -48,14 +50,15 @@ class Sequencer {
   void restore(const MissionState& state, Time now);
 
  private:
-  [[nodiscard]] OrderedEggs order(const Pose2& robot_in_map,
-                                  const std::vector<const EggTask*>& eggs);
+  [[nodiscard]] OrderedEggs order(const Pose2& robot_in_map, std::vector<const EggTask*> eggs);
+  /// Where there are more than can be ordered together: the nearest first.
+  void sort_by_cost(const Pose2& robot_in_map, std::vector<const EggTask*>& eggs);
 
   SequencerConfig config_;
   EggTracks tracks_;
   PathCosts costs_;
   Mission mission_;
-  RandomStream random_;
+  OrderingStreams streams_;
 };
 
 }  // namespace coop::sequencer

@@ -3,45 +3,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "sequencer/held_karp.hpp"
+#include "unit/sequencer/cost_matrices.hpp"
 
 namespace coop::sequencer {
 namespace {
 
 using ::testing::ElementsAre;
 
-CostMatrix distances(const std::vector<Eigen::Vector2d>& places) {
-  CostMatrix costs(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    for (std::size_t j = 0; j < places.size(); ++j) costs.at(i, j) = (places[i] - places[j]).norm();
-  }
-  return costs;
-}
-
-CostMatrix random_places(std::size_t count, std::uint64_t seed) {
-  RandomStream random(seed, "places");
-  std::vector<Eigen::Vector2d> places;
-  for (std::size_t i = 0; i < count; ++i) {
-    places.emplace_back(random.uniform(0, 14), random.uniform(0, 9));
-  }
-  return distances(places);
-}
-
-double cheapest_by_trying_all(const CostMatrix& costs, bool closed) {
-  std::vector<std::size_t> order(costs.size - 1);
-  std::iota(order.begin(), order.end(), std::size_t{1});
-  double best = std::numeric_limits<double>::infinity();
-  do {
-    best = std::min(best, tour_cost(costs, order, closed));
-  } while (std::ranges::next_permutation(order).found);
-  return best;
-}
+using test::cheapest_by_trying_all;
+using test::distances;
+using test::random_places;
 
 TEST(AntColonyTest, EggsAlongALineAreCollectedInPassing) {
   const CostMatrix costs = distances({{0, 0}, {3, 0}, {1, 0}, {2, 0}});

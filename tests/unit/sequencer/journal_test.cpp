@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "core/atomic_file.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -49,6 +51,20 @@ TEST_F(JournalTest, TheLastStateIsReadBackWhole) {
   EXPECT_EQ(state->eggs[2].egg_in_map, Eigen::Vector2d(0.2, 1.0 / 3.0));
   EXPECT_EQ(state->eggs[1].tried_headings, std::vector<double>{0.25});
   EXPECT_EQ(to_line(*state), to_line(state_with(2)));
+}
+
+TEST_F(JournalTest, AStateWhoseTourCannotBeDrivenIsReadBackToo) {
+  MissionState state = state_with(1);
+  state.tour_cost = std::numeric_limits<double>::infinity();
+  {
+    Journal journal(path_);
+    EXPECT_TRUE(journal.append(state_with(0)));
+    EXPECT_TRUE(journal.append(state));
+  }
+  const auto read = Journal::read(path_);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->count(EggPhase::kPicked), 1);
+  EXPECT_EQ(read->tour_cost, state.tour_cost);
 }
 
 TEST_F(JournalTest, CutAtAnyByteTheStateBeforeStands) {
