@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/places.hpp"
 #include "launcher/launch_file.hpp"
-#include "launcher/places.hpp"
 
 namespace coop::launcher {
 

@@ -2,6 +2,9 @@
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 
+#include <cstdlib>
+#include <string_view>
+
 namespace coop::runtime {
 
 namespace dds = eprosima::fastdds::dds;
@@ -41,6 +44,12 @@ void apply_common(Qos intent, const DdsOptions& options, EndpointQos& qos) {
   }
 }
 
+/// As for ROS 2's programs.
+bool stays_on_this_machine() {
+  const char* wanted = std::getenv("ROS_LOCALHOST_ONLY");
+  return wanted != nullptr && std::string_view(wanted) == "1";
+}
+
 }  // namespace
 
 dds::DomainParticipantQos participant_qos(dds::DomainParticipantQos base,
@@ -50,6 +59,7 @@ dds::DomainParticipantQos participant_qos(dds::DomainParticipantQos base,
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
   udp->sendBufferSize = kSocketBuffer;
   udp->receiveBufferSize = kSocketBuffer;
+  if (stays_on_this_machine()) udp->interfaceWhiteList.emplace_back("127.0.0.1");
   base.transport().user_transports.push_back(udp);
   auto& discovery = base.wire_protocol().builtin.discovery_config;
   discovery.leaseDuration = Duration_t(2, 0);

@@ -25,6 +25,15 @@ void Figure::describe(config::Fields& fields) {
   fields.text("unit", unit, {.help = "for the axis"});
 }
 
+void SlurmSettings::describe(config::Fields& fields) {
+  fields.text("partition", partition, {.help = "default: the cluster's"});
+  fields.text("time_limit", time_limit,
+              {.help = "of a run, as sbatch's --time; default: a little over `timeout`"});
+  fields.texts("options", options, {.help = "further ones of sbatch, one word each"});
+  fields.integer("retries", retries,
+                 {.help = "of a run that ended without success", .min = 0, .max = 100});
+}
+
 void SweepConfig::describe(config::Fields& fields) {
   static constexpr std::array<std::string_view, 2> kReports{"figures", "navigation"};
   fields.text("title", title, {.help = "of the report"});
@@ -38,6 +47,7 @@ void SweepConfig::describe(config::Fields& fields) {
                 {.unit = "s", .help = "of wall time for one run", .min = 1, .max = 1e6});
   fields.choice("report", report, kReports, {.help = "what report.html shows"});
   fields.list("figures", figures);
+  fields.section("slurm", slurm);
 }
 
 void SweepConfig::validate() const {

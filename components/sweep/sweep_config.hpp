@@ -31,6 +31,16 @@ struct Figure {
   void describe(config::Fields& fields);
 };
 
+/// How a batch system is asked to make the runs.
+struct SlurmSettings {
+  std::string partition;   ///< empty: the cluster's default
+  std::string time_limit;  ///< of a run, as sbatch's --time; empty: a little over `timeout`
+  std::vector<std::string> options;  ///< further ones of sbatch, one word each
+  int retries = 2;                   ///< of a run that ended without success
+
+  void describe(config::Fields& fields);
+};
+
 /// A launch file over a grid of parameters and seeds.
 struct SweepConfig {
   std::string title;
@@ -43,6 +53,7 @@ struct SweepConfig {
   double timeout = 1800.0;         ///< s of wall time after which a run has failed
   std::string report = "figures";  ///< or navigation: the egg paper's experiment
   std::vector<Figure> figures;
+  SlurmSettings slurm;
 
   void describe(config::Fields& fields);
   void validate() const;  ///< throws config::Error

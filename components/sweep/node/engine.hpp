@@ -1,8 +1,10 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
+#include "sweep/inputs.hpp"
 #include "sweep/sweep_config.hpp"
 
 namespace coop::sweep {
@@ -12,6 +14,8 @@ struct Sweep {
   SweepConfig config;
   std::filesystem::path file;    ///< the sweep file
   std::filesystem::path folder;  ///< of all results
+  Places places;
+  Inputs inputs;  ///< as they were when it began
 };
 
 /// Makes runs: each leaves its result.json, whatever becomes of it. One word to the watcher after
@@ -26,6 +30,8 @@ class Engine {
 
   /// Returns when all are made, or when stopped. `watch` is asked several times a second.
   virtual void make(const Sweep& sweep, const std::vector<Run>& runs, const Watcher& watch) = 0;
+  /// A few words on what it is doing; may be empty.
+  [[nodiscard]] virtual std::string status() const { return {}; }
 };
 
 }  // namespace coop::sweep

@@ -6,7 +6,7 @@ namespace coop::sweep {
 /// Runs side by side on this machine, each in a DDS domain of its own.
 class LocalEngine : public Engine {
  public:
-  /// Domains from `first_domain` on, one for each of the `jobs`.
+  /// One domain for each of the `jobs`: those from `first_domain` on that are free.
   LocalEngine(int jobs, int first_domain) : jobs_(jobs), first_domain_(first_domain) {}
 
   void make(const Sweep& sweep, const std::vector<Run>& runs, const Watcher& watch) override;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/atomic_file.hpp"
+#include "sweep/node/command.hpp"
 #include "sweep/results.hpp"
 
 namespace coop::sweep {
@@ -13,8 +14,7 @@ constexpr std::chrono::seconds kGrace{30};
 
 std::vector<std::string> launcher_command(const Sweep& sweep, const Run& run, int domain,
                                           const std::filesystem::path& folder) {
-  const auto programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  std::vector<std::string> command{(programs / "launcher").string(),
+  std::vector<std::string> command{(sweep.places.programs / "launcher").string(),
                                    "up",
                                    sweep.config.launch,
                                    "--quiet",
@@ -31,13 +31,6 @@ std::vector<std::string> launcher_command(const Sweep& sweep, const Run& run, in
     command.push_back(setting);
   }
   return command;
-}
-
-std::string last_line(const std::filesystem::path& file) {
-  std::string text = read_file(file);
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  const auto end = text.rfind('\n');
-  return end == std::string::npos ? text : text.substr(end + 1);
 }
 
 }  // namespace
@@ -78,10 +71,14 @@ void RunTask::conclude(int exit_code) {
   result.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
   const auto table = folder_ / "system" / "latest" / sweep_.config.table;
+  const std::string changed =
+      shown_differences(sweep_.inputs, find_inputs(sweep_.config, sweep_.places));
   if (exit_code != 0) {
     result.problem =
         fmt::format("the launcher ended with exit code {}{}: {}", exit_code,
                     out_of_time_ ? ", out of time" : "", last_line(folder_ / "launcher.log"));
+  } else if (!changed.empty()) {
+    result.problem = "inputs changed while it ran: " + changed;
   } else if (!std::filesystem::exists(table)) {
     result.problem = "no " + sweep_.config.table + " in the run's folder";
   } else {

@@ -65,7 +65,7 @@ TEST_F(SweepSystem, GoesOnWhereItWasStoppedAndGivesTheRowsOfOneThatWasNot) {
   EXPECT_TRUE(fs::exists(whole / "report.html"));
 }
 
-TEST_F(SweepSystem, OneRunOfManyIsMadeAloneAndGatheredLater) {
+TEST_F(SweepSystem, OneRunOfManyIsMadeAloneAndNotMixedWithThoseOfOtherInputs) {
   const fs::path results = folder_.path() / "results";
   auto task = sweep(results, {"--only", "2"});
   const auto ended = task->wait(kLimit);
@@ -74,6 +74,15 @@ TEST_F(SweepSystem, OneRunOfManyIsMadeAloneAndGatheredLater) {
   EXPECT_TRUE(fs::exists(results / "runs/0002/result.json"));
   EXPECT_FALSE(fs::exists(results / "runs/0001"));
   EXPECT_FALSE(fs::exists(results / "report.html"));
+
+  auto changed = sweep(results, {"--set", "dwa.mode=paper"});
+  const auto refused = changed->wait(kLimit);
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->code, 1);
+  EXPECT_EQ(changed->output(),
+            "sweep: the results in " + results.string() +
+                " are of other inputs (changed: sweep: settings); --restart makes "
+                "all of them anew, or name another folder with -o\n");
 }
 
 }  // namespace

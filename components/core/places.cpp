@@ -1,10 +1,10 @@
-#include "launcher/places.hpp"
+#include "core/places.hpp"
 
 #include <cstdlib>
 
 #include "core/config/error.hpp"
 
-namespace coop::launcher {
+namespace coop {
 namespace {
 
 std::filesystem::path find_share(const std::filesystem::path& programs) {
@@ -41,4 +41,4 @@ std::filesystem::path find_file(const std::filesystem::path& name,
   return {};
 }
 
-}  // namespace coop::launcher
+}  // namespace coop

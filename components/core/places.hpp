@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace coop::launcher {
+namespace coop {
 
 /// Where the parts of Coop lie: in a checkout, or installed (PREFIX/lib/coop and
 /// PREFIX/share/coop).
@@ -20,4 +20,4 @@ struct Places {
 [[nodiscard]] std::filesystem::path find_file(const std::filesystem::path& name,
                                               const std::vector<std::filesystem::path>& folders);
 
-}  // namespace coop::launcher
+}  // namespace coop
