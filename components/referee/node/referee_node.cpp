@@ -53,11 +53,27 @@ NavigationView::State to_state(std::uint8_t state) {
 void RefereeNodeConfig::describe(config::Fields& fields) {
   fields.text("robot", robot, {.help = "URDF of the robot: the arm's working point"});
   fields.text("file", file, {.help = "table of the attempts, in the run's folder"});
+  fields.text("legs_file", legs_file, {.help = "table of the drives between goals, there as well"});
+  fields.number(
+      "goal_radius", goal_radius,
+      {.unit = "m", .help = "a goal of a drive is reached within", .min = 0.01, .max = 10});
   fields.number("time_limit", time_limit,
                 {.unit = "s",
                  .help = "of the mission, by its clock, then the run is over; 0: none",
                  .min = 0});
   referee.describe(fields);
+}
+
+RefereeNode::Table::Table(const std::filesystem::path& file,
+                          const std::vector<std::string>& columns)
+    : path(file), out(file, std::ios::trunc) {
+  out << csv_line(columns) << std::flush;
+  if (!out) throw config::Error("cannot write " + path.string());
+}
+
+void RefereeNode::Table::add(const std::vector<std::string>& row) {
+  ++rows;
+  out << csv_line(row) << std::flush;
 }
 
 void RefereeNode::check(const Config& config) {
@@ -68,25 +84,31 @@ RefereeNode::RefereeNode(runtime::Node& node, const Config& config)
     : node_(node),
       config_(config),
       referee_(config.referee, working_point_of(config.robot)),
+      legs_(config.goal_radius),
       transforms_(node.transforms()),
-      moments_("map", kPatience, 200) {
-  const auto path = node.options().run_dir / config.file;
-  out_.open(path, std::ios::trunc);
-  out_ << csv_line(attempt_columns()) << std::flush;
-  if (!out_) throw config::Error("cannot write " + path.string());
+      moments_("map", kPatience, 200),
+      attempts_(node.options().run_dir / config.file, attempt_columns()),
+      leg_table_(node.options().run_dir / config.legs_file, leg_columns()) {
   subscribe();
   node.every(kStepPeriod, [this] { step(); });
   node.on_stop([this] {
-    referee_.end();
+    end();
     write_finished();
   });
+}
+
+void RefereeNode::end() {
+  referee_.end();
+  legs_.end();
 }
 
 void RefereeNode::subscribe() {
   node_.subscribe<coop_msgs::msg::World>("world", Qos::kStateLatched,
                                          [this](const coop_msgs::msg::World& message) {
                                            const auto world = conversions::from_msg(message);
-                                           if (world) referee_.begin(*world);
+                                           if (!world) return;
+                                           referee_.begin(*world);
+                                           legs_.begin(world->robot_start);
                                          });
   // Every sample counts, but none needs an answer of its own.
   node_.subscribe<GroundTruth>(
@@ -97,7 +119,9 @@ void RefereeNode::subscribe() {
         const auto goal = conversions::from_msg(message);
         // A goal without a frame is one taken back.
         if (!goal || goal->frame_id.empty()) return;
-        referee_.hear_goal(std::to_string(to_nanoseconds(goal->stamp)));
+        const std::string id = std::to_string(to_nanoseconds(goal->stamp));
+        referee_.hear_goal(id);
+        legs_.hear_goal(id, goal->value.position());
       });
   node_.subscribe<MissionStatus>("mission_status", Qos::kStateLatched,
                                  [this](const MissionStatus& message) { receive(message); });
@@ -109,6 +133,7 @@ void RefereeNode::receive(const GroundTruth& message) {
   const auto truth = conversions::from_msg(message);
   if (!truth) return;
   referee_.see(*truth);
+  legs_.see(*truth);
   moments_.push({truth->stamp, truth->robot_in_world}, "base_link", truth->stamp);
 }
 
@@ -146,17 +171,24 @@ void RefereeNode::step() {
   const bool time_is_up = config_.time_limit > 0.0 && mission_begun_ != Time{} &&
                           node_.now() - mission_begun_ > seconds(config_.time_limit);
   if (time_is_up) referee_.end();
+  if (referee_.has_ended()) legs_.end();
   write_finished();
   if (referee_.has_ended()) node_.finish(time_is_up ? "time is up" : "the mission is over");
 }
 
 void RefereeNode::write_finished() {
+  const std::uint64_t seed = node_.options().seed;
   for (const Attempt& attempt : referee_.take_finished()) {
-    out_ << csv_line(to_row(attempt, node_.options().seed, ++rows_)) << std::flush;
-    node_.log().info("attempt {}: egg '{}' {} {}", rows_, attempt.egg,
+    attempts_.add(to_row(attempt, seed, attempts_.rows + 1));
+    node_.log().info("attempt {}: egg '{}' {} {}", attempts_.rows, attempt.egg,
                      attempt.in_range ? "in range" : "missed:", to_string(attempt.cause));
   }
-  if (!out_) node_.set_degraded("cannot write " + config_.file);
+  for (const Leg& leg : legs_.take_finished()) {
+    leg_table_.add(to_row(leg, seed, leg_table_.rows + 1));
+  }
+  for (const Table* table : {&attempts_, &leg_table_}) {
+    if (!table->out) node_.set_degraded("cannot write " + table->path.string());
+  }
 }
 
 }  // namespace coop::referee

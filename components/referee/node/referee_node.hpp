@@ -3,10 +3,13 @@
 #include <coop_msgs/msg/MissionStatus.h>
 #include <coop_msgs/msg/NavigationStatus.h>
 
+#include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "core/robot/robot_model.hpp"
+#include "referee/legs.hpp"
 #include "referee/referee.hpp"
 #include "runtime/node.hpp"
 #include "runtime/stamped_queue.hpp"
@@ -15,14 +18,17 @@ namespace coop::referee {
 
 struct RefereeNodeConfig {
   std::string robot = "config/robot/egg_collector.urdf";
-  std::string file = "attempts.csv";  ///< in the run's folder
-  double time_limit = 0.0;            ///< s of mission, then the run is over; 0: none
+  std::string file = "attempts.csv";   ///< in the run's folder
+  std::string legs_file = "legs.csv";  ///< in the run's folder
+  double goal_radius = 0.7;            ///< m; a goal of a leg is reached within
+  double time_limit = 0.0;             ///< s of mission, then the run is over; 0: none
   RefereeConfig referee;
 
   void describe(config::Fields& fields);
 };
 
-/// Judges the attempts of a simulated mission, one row of a file each, and ends with the mission.
+/// Judges the attempts of a simulated mission and measures its drives, one row of a file each, and
+/// ends with the mission.
 class RefereeNode {
  public:
   using Config = RefereeNodeConfig;
@@ -35,19 +41,30 @@ class RefereeNode {
   void receive(const coop_msgs::msg::MissionStatus& message);
   void receive(const coop_msgs::msg::NavigationStatus& message);
   void step();
+  void end();
   void write_finished();
+
+  /// A file of the run that grows by rows.
+  struct Table {
+    Table(const std::filesystem::path& path, const std::vector<std::string>& columns);
+    void add(const std::vector<std::string>& row);
+    std::filesystem::path path;
+    std::ofstream out;
+    int rows = 0;
+  };
 
   runtime::Node& node_;
   Config config_;
   Referee referee_;
+  Legs legs_;
   const TransformBuffer& transforms_;
   struct Moment {
     Time stamp;
     Pose2 robot_in_world;
   };
   runtime::StampedQueue<Moment> moments_;
-  std::ofstream out_;
-  int rows_ = 0;
+  Table attempts_;
+  Table leg_table_;
   Time mission_begun_{};
 };
 

@@ -81,8 +81,8 @@ class RefereeNodeTest : public ::testing::Test {
     navigation_.publish(status);
     fixture_.settle();
   }
-  [[nodiscard]] CsvTable table() const {
-    return parse_csv(read_file(folder_.path() / "attempts.csv"));
+  [[nodiscard]] CsvTable table(const std::string& file = "attempts.csv") const {
+    return parse_csv(read_file(folder_.path() / file));
   }
   [[nodiscard]] std::string field(const CsvTable& table, const std::string& column) const {
     return table.rows.at(0).at(table.column(column));
@@ -118,6 +118,10 @@ TEST_F(RefereeNodeTest, AnAttemptIsOnDiskAsSoonAsItIsOverAndTheRunEndsWithTheMis
   EXPECT_FALSE(fixture_.node_of("referee").wants_to_end());
   tell(MissionState::DONE, EggState::PICKED, 1);
   stand(200ms);
+  const CsvTable legs = table("legs.csv");
+  ASSERT_EQ(legs.rows.size(), 1U);
+  EXPECT_EQ(field(legs, "reached"), "1");
+  EXPECT_EQ(field(legs, "path_length"), "2.0800");
   EXPECT_TRUE(fixture_.node_of("referee").wants_to_end());
   EXPECT_EQ(fixture_.node_of("referee").exit_code(), 0);
   EXPECT_EQ(table().rows.size(), 1U);
