@@ -32,7 +32,7 @@ struct SimulatedArm::Memory {
 };
 
 SimulatedArm::SimulatedArm(const KinematicChain& chain, const JointVector& start,
-                           std::filesystem::path memory)
+                           const std::filesystem::path& memory)
     : chain_(chain), positions_(start), velocities_(JointVector::Zero(chain.size())) {
   if (memory.empty()) return;
   if (memory.has_parent_path()) std::filesystem::create_directories(memory.parent_path());

@@ -18,7 +18,7 @@ class SimulatedArm : public ArmDevice {
   /// empty: none) is the file in which the simulated one does; without it the arm starts at `start`
   /// with the pump off.
   SimulatedArm(const KinematicChain& chain, const JointVector& start,
-               std::filesystem::path memory = {});
+               const std::filesystem::path& memory = {});
   ~SimulatedArm() override;
 
   /// What the simulator's ground truth says, heard at `now`.

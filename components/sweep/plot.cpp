@@ -31,12 +31,12 @@ struct Range {
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  /// Never empty.
+  /// Never empty; what is not negative stays so.
   void widen() {
     if (low > high) low = high = 0.0;
     if (high - low > 1e-12) return;
     const double margin = std::max(0.5 * std::abs(low), 0.5);
-    low -= margin;
+    low = low < 0.0 ? low - margin : std::max(0.0, low - margin);
     high += margin;
   }
 };
