@@ -9,33 +9,31 @@
 namespace coop {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kDiagonal = std::numbers::sqrt2_v<float>;
-constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
+using search::kDiagonal;
+using search::kInfinity;
 
 }  // namespace
 
 Result<GridPath, SearchFailure> Dijkstra::plan(const TraversalGrid& grid, Cell start, Cell goal) {
-  if (!grid.passable(goal)) return fail(SearchFailure::kGoalBlocked);
-  if (!grid.passable(start)) return fail(SearchFailure::kStartBlocked);
+  if (const auto failure = check_ends(grid, start, goal)) return fail(*failure);
   flood_past(grid, goal, start, 0.0);
   if (!std::isfinite(cost_to_goal(start))) return fail(SearchFailure::kNoPath);
   return path_from(grid, start);
 }
 
 void Dijkstra::flood(const TraversalGrid& grid, Cell goal, double limit) {
-  run(grid, goal, kNowhere, 0.0, limit / grid.geometry().resolution);
+  run(grid, goal, std::nullopt, 0.0, limit / grid.geometry().resolution);
 }
 
 void Dijkstra::flood_past(const TraversalGrid& grid, Cell goal, Cell start, double slack) {
-  run(grid, goal, grid.padded_index(start), slack / grid.geometry().resolution,
+  run(grid, goal, start, slack / grid.geometry().resolution,
       std::numeric_limits<double>::infinity());
 }
 
 void Dijkstra::prepare(const TraversalGrid& grid) {
   geometry_ = grid.geometry();
-  stride_ = grid.stride();
-  cost_.assign(grid.padded_size(), kInfinity);
+  tiles_.update(grid);
+  cost_.assign(tiles_.size(), kInfinity);
   const float longest_step = kDiagonal * grid.largest_factor();
   const std::uint32_t count = std::bit_ceil(static_cast<std::uint32_t>(longest_step) + 3);
   if (buckets_.size() < count) buckets_.resize(count);
@@ -44,67 +42,71 @@ void Dijkstra::prepare(const TraversalGrid& grid) {
   waiting_ = 0;
 }
 
-void Dijkstra::run(const TraversalGrid& grid, Cell goal, std::uint32_t start, double slack,
+void Dijkstra::run(const TraversalGrid& grid, Cell goal, std::optional<Cell> start, double slack,
                    double limit) {
   prepare(grid);
-  const std::uint32_t source = grid.padded_index(goal);
+  const std::uint32_t source = tiles_.index(goal);
   cost_[source] = 0.0F;
   buckets_[0].push_back(source);
   waiting_ = 1;
   for (current_ = 0; waiting_ > 0 && current_ <= limit; ++current_) {
-    std::vector<std::uint32_t>& bucket = buckets_[current_ & bucket_mask_];
-    // No step ends in the bucket it starts from, so the bucket does not grow while it is emptied.
-    for (const std::uint32_t index : bucket) {
-      // Where the cost has fallen since, the cell was in a lower bucket and is done.
-      if (static_cast<std::uint32_t>(cost_[index]) == current_) expand(grid, index);
-    }
-    waiting_ -= bucket.size();
-    bucket.clear();
-    if (start != kNowhere && cost_[start] < kInfinity) {
-      limit = std::min(limit, cost_[start] + slack);
-    }
+    empty_bucket(grid.factors());
+    if (start && cost_at(*start) < kInfinity) limit = std::min(limit, cost_at(*start) + slack);
   }
 }
 
-void Dijkstra::expand(const TraversalGrid& grid, std::uint32_t index) {
-  const Cost* cells = grid.cells().data();
-  const float* factors = grid.factors().data();
-  const float here = cost_[index];
-  const float factor_here = factors[cells[index]];
-  const auto relax = [&](std::uint32_t neighbour, float factor, float half_length) {
-    const float cost = here + half_length * (factor_here + factor);
-    const float old = cost_[neighbour];
-    if (cost >= old) return;
-    cost_[neighbour] = cost;
-    const auto slot = static_cast<std::uint32_t>(cost);
-    // A cell that falls within its bucket waits there already.
-    if (old < kInfinity && static_cast<std::uint32_t>(old) == slot) return;
-    buckets_[slot & bucket_mask_].push_back(neighbour);
-    ++waiting_;
-  };
-  const auto up = static_cast<std::uint32_t>(stride_);
-  const float east = factors[cells[index + 1]];
-  const float west = factors[cells[index - 1]];
-  const float north = factors[cells[index + up]];
-  const float south = factors[cells[index - up]];
-  // An infinite factor makes the cost infinite, which never is below the old one.
-  relax(index + 1, east, 0.5F);
-  relax(index - 1, west, 0.5F);
-  relax(index + up, north, 0.5F);
-  relax(index - up, south, 0.5F);
-  const auto relax_diagonal = [&](std::uint32_t neighbour, float side_a, float side_b) {
-    if (side_a + side_b < kInfinity) relax(neighbour, factors[cells[neighbour]], 0.5F * kDiagonal);
-  };
-  relax_diagonal(index + up + 1, north, east);
-  relax_diagonal(index + up - 1, north, west);
-  relax_diagonal(index - up + 1, south, east);
-  relax_diagonal(index - up - 1, south, west);
+// What the loop needs stands in locals, which no store into an array can change.
+void Dijkstra::empty_bucket(const std::array<float, 256>& factors) {
+  std::vector<std::uint32_t>& bucket = buckets_[current_ & bucket_mask_];
+  std::vector<std::uint32_t>* const buckets = buckets_.data();
+  const std::uint32_t mask = bucket_mask_;
+  float* const costs = cost_.data();
+  const Cost* const cells = tiles_.cells();
+  std::size_t pushed = 0;
+  // No step ends in the bucket it starts from, so the bucket does not grow while it is emptied.
+  for (const std::uint32_t index : bucket) {
+    const float here = costs[index];
+    // Where the cost has fallen since, the cell was in a lower bucket and is done.
+    if (static_cast<std::uint32_t>(here) != current_) continue;
+    const float factor_here = factors[cells[index]];
+    const auto factor_at = [&](std::uint32_t at) { return factors[cells[at]]; };
+    const auto relax = [&](std::uint32_t neighbour, float factor, float half_length) {
+      const float cost = here + half_length * (factor_here + factor);
+      const float old = costs[neighbour];
+      // An infinite factor makes the cost infinite, which never is below the old one.
+      if (cost >= old) return;
+      costs[neighbour] = cost;
+      const auto slot = static_cast<std::uint32_t>(cost);
+      // A cell that falls within its bucket waits there already.
+      if (old < kInfinity && static_cast<std::uint32_t>(old) == slot) return;
+      buckets[slot & mask].push_back(neighbour);
+      ++pushed;
+    };
+    const search::Tiles::Around to = tiles_.around(index);
+    const float east = factor_at(index + to.east);
+    const float west = factor_at(index + to.west);
+    relax(index + to.east, east, 0.5F);
+    relax(index + to.west, west, 0.5F);
+    const auto relax_row = [&](std::uint32_t middle) {
+      const float factor = factor_at(middle);
+      if (factor == kInfinity) return;  // nor may a diagonal step pass by it
+      relax(middle, factor, 0.5F);
+      const std::uint32_t right = middle + to.east;
+      const std::uint32_t left = middle + to.west;
+      if (east < kInfinity) relax(right, factor_at(right), 0.5F * kDiagonal);
+      if (west < kInfinity) relax(left, factor_at(left), 0.5F * kDiagonal);
+    };
+    relax_row(index + to.north);
+    relax_row(index + to.south);
+  }
+  waiting_ += pushed;
+  waiting_ -= bucket.size();
+  bucket.clear();
 }
 
 double Dijkstra::cost_to_goal(Cell cell) const {
   if (!geometry_.contains(cell)) return std::numeric_limits<double>::infinity();
-  const auto index = static_cast<std::size_t>((cell.y + 1) * stride_ + cell.x + 1);
-  return static_cast<double>(cost_[index]) * geometry_.resolution;
+  return static_cast<double>(cost_at(cell)) * geometry_.resolution;
 }
 
 GridPath Dijkstra::path_from(const TraversalGrid& grid, Cell start) const {
@@ -123,7 +125,7 @@ GridPath Dijkstra::path_from(const TraversalGrid& grid, Cell start) const {
   GridPath path;
   path.cells.push_back(start);
   Cell here = start;
-  while (cost_[grid.padded_index(here)] > 0.0F) {
+  while (cost_at(here) > 0.0F) {
     const float factor_here = grid.factor(grid.padded_index(here));
     const Step* best = nullptr;
     double best_cost = std::numeric_limits<double>::infinity();
@@ -134,10 +136,12 @@ GridPath Dijkstra::path_from(const TraversalGrid& grid, Cell start) const {
           !(grid.passable({here.x + step.dx, here.y}) && grid.passable({here.x, here.y + step.dy})))
         continue;
       const std::uint32_t index = grid.padded_index(next);
-      if (!(cost_[index] < cost_[grid.padded_index(here)])) continue;
+      // The border is no part of the grid: no wave comes there.
+      const float cost = cost_at(next);
+      if (!(cost < cost_at(here))) continue;
       const double step_cost = step.length * 0.5 * (factor_here + grid.factor(index));
-      if (cost_[index] + step_cost >= best_cost) continue;
-      best_cost = cost_[index] + step_cost;
+      if (cost + step_cost >= best_cost) continue;
+      best_cost = cost + step_cost;
       best_step = step_cost;
       best = &step;
     }

@@ -1,8 +1,11 @@
 #pragma once
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/search/grid_planner.hpp"
+#include "core/search/tiles.hpp"
 
 namespace coop {
 
@@ -32,12 +35,14 @@ class Dijkstra final : public GridPlanner {
 
  private:
   void prepare(const TraversalGrid& grid);
-  void expand(const TraversalGrid& grid, std::uint32_t index);
-  void run(const TraversalGrid& grid, Cell goal, std::uint32_t start, double slack, double limit);
+  void run(const TraversalGrid& grid, Cell goal, std::optional<Cell> start, double slack,
+           double limit);
+  void empty_bucket(const std::array<float, 256>& factors);
+  [[nodiscard]] float cost_at(Cell cell) const { return cost_[tiles_.index(cell)]; }
 
   GridGeometry geometry_;
-  int stride_ = 0;
-  std::vector<float> cost_;  ///< cells of free ground, padded as the traversal grid
+  search::Tiles tiles_;
+  std::vector<float> cost_;  ///< cells of free ground, in tiles
   std::vector<std::vector<std::uint32_t>> buckets_;
   std::uint32_t bucket_mask_ = 0;
   std::uint32_t current_ = 0;  ///< bucket being emptied

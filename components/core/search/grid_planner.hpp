@@ -2,7 +2,9 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/costmap/costmap.hpp"
@@ -56,25 +58,54 @@ class TraversalGrid {
   }
   [[nodiscard]] float largest_factor() const { return largest_factor_; }
 
+  /// Differs between any two grids, or states of one, that may differ in what can be asked of them;
+  /// never 0. Planners keep by it what they have derived from a grid.
+  [[nodiscard]] std::uint64_t revision() const { return revision_; }
+
  private:
   GridGeometry geometry_;
   std::vector<Cost> cells_;
   std::array<float, 256> factors_{};
   float largest_factor_ = 1.0F;
   std::vector<std::uint32_t> opened_;
+  std::uint64_t revision_ = 0;
 };
 
-/// 8-connected path, start and goal included, and its cost in metres of free ground.
+/// 8-connected path, start and goal included, and its cost in metres of free ground. An any-angle
+/// planner gives the cells at which its path turns; consecutive ones see each other.
 struct GridPath {
   std::vector<Cell> cells;
   double cost = 0.0;
 };
 
-enum class SearchFailure : std::uint8_t { kStartBlocked, kGoalBlocked, kNoPath };
+enum class SearchFailure : std::uint8_t {
+  kStartBlocked,
+  kGoalBlocked,
+  kNoPath,
+  kStartOutside,
+  kGoalOutside,
+  kEmptyGrid,
+  kCostsDiffer,  ///< the planner can only search grids whose passable cells all cost the same
+};
+
+/// For people.
+[[nodiscard]] std::string_view to_string(SearchFailure failure);
+
+/// The reason why no search from start to goal can succeed that shows at once.
+[[nodiscard]] std::optional<SearchFailure> check_ends(const TraversalGrid& grid, Cell start,
+                                                      Cell goal);
+
+/// The cell a point lies in, for a plan's start or goal: nothing where it lies outside the grid or
+/// is not finite.
+[[nodiscard]] std::optional<Cell> cell_within(const GridGeometry& geometry,
+                                              const Eigen::Vector2d& point);
+
+/// What an 8-connected path costs, in metres of free ground.
+[[nodiscard]] double cost_of(const TraversalGrid& grid, std::span<const Cell> path);
 
 /// A search over a traversal grid. A step to one of the eight neighbours costs its length times the
 /// mean factor of the two cells; a diagonal step needs both side cells passable (no cutting of
-/// corners).
+/// corners). Planners keep their work space from one query to the next.
 class GridPlanner {
  public:
   virtual ~GridPlanner() = default;

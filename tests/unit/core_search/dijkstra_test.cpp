@@ -2,47 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <queue>
-#include <sstream>
-#include <string>
-#include <string_view>
 
 #include "core/random.hpp"
-#include "support/shared_data.hpp"
+#include "support/traversal_drawing.hpp"
 
 namespace coop {
 namespace {
 
+using test::draw;
+using test::make_grid;
+
 constexpr double kSqrt2 = std::numbers::sqrt2;
-
-/// Draws a grid of 1 m cells; the first line is the top row. '.' free, '#' lethal, 'i' inscribed,
-/// '?' unknown, a digit d a restricted cell of cost 28 d (9: the highest).
-Grid<Cost> draw(const std::vector<std::string_view>& rows) {
-  const int width = static_cast<int>(rows.front().size());
-  const int height = static_cast<int>(rows.size());
-  Grid<Cost> costs({width, height, 1.0, {0.0, 0.0}}, kFreeCost);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const char c = rows[static_cast<std::size_t>(height - 1 - y)][static_cast<std::size_t>(x)];
-      Cost& cost = costs[{x, y}];
-      if (c == '#') cost = kLethalCost;
-      if (c == 'i') cost = kInscribedCost;
-      if (c == '?') cost = kUnknownCost;
-      if (c >= '1' && c <= '9') cost = static_cast<Cost>(28 * (c - '0'));
-    }
-  }
-  return costs;
-}
-
-TraversalGrid make_grid(const Grid<Cost>& costs, const TraversalConfig& config = {}) {
-  TraversalGrid grid(config);
-  grid.update(costs);
-  return grid;
-}
 
 TEST(Dijkstra, TakesDiagonalsInTheOpen) {
   const TraversalGrid grid = make_grid(draw({"....",  //
@@ -90,7 +63,7 @@ TEST(Dijkstra, TellsApartWhyThereIsNoPath) {
   EXPECT_EQ(dijkstra.plan(grid, {0, 0}, {3, 1}).error(), SearchFailure::kNoPath);
   EXPECT_EQ(dijkstra.plan(grid, {2, 0}, {0, 1}).error(), SearchFailure::kStartBlocked);
   EXPECT_EQ(dijkstra.plan(grid, {0, 0}, {3, 0}).error(), SearchFailure::kGoalBlocked);
-  EXPECT_EQ(dijkstra.plan(grid, {0, 0}, {4, 0}).error(), SearchFailure::kGoalBlocked);
+  EXPECT_EQ(dijkstra.plan(grid, {0, 0}, {4, 0}).error(), SearchFailure::kGoalOutside);
 }
 
 TEST(Dijkstra, CrossesUnknownCellsOnlyWhereThatIsAllowed) {
@@ -173,76 +146,6 @@ TEST(Dijkstra, EqualsAPlainHeapSearchOnRandomWeightedGrids) {
     }
   }
 }
-
-/// A map of the MovingAI benchmark: '.' and 'G' are free.
-Grid<Cost> read_moving_ai_map(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::string word;
-  int width = 0;
-  int height = 0;
-  while (file >> word && word != "map") {
-    if (word == "height") file >> height;
-    if (word == "width") file >> width;
-  }
-  Grid<Cost> costs({width, height, 1.0, {0.0, 0.0}}, kLethalCost);
-  for (int y = 0; y < height; ++y) {
-    file >> word;
-    for (int x = 0; x < width; ++x) {
-      const char c = word[static_cast<std::size_t>(x)];
-      if (c == '.' || c == 'G') costs[{x, y}] = kFreeCost;
-    }
-  }
-  return costs;
-}
-
-/// The scenario files round to six digits, some to two decimals, and some lengths were summed in
-/// single precision.
-double tolerance_of(const std::string& number) {
-  const std::size_t point = number.find('.');
-  const double decimals =
-      point == std::string::npos ? 0.0 : static_cast<double>(number.size() - point - 1);
-  return 0.5 * std::pow(10.0, -std::max(2.0, decimals)) + 5e-6 * std::stod(number);
-}
-
-class MovingAi : public testing::TestWithParam<const char*> {};
-
-TEST_P(MovingAi, PathsHaveThePublishedOptimalLengths) {
-  const auto map = test::shared_data(std::string("planning/") + GetParam() + ".map");
-  const auto scenarios = test::shared_data(std::string("planning/") + GetParam() + ".map.scen");
-  if (!map || !scenarios) GTEST_SKIP() << "not run: shared planning data is absent";
-  const TraversalGrid grid = make_grid(read_moving_ai_map(*map));
-  std::ifstream file(*scenarios);
-  std::string line;
-  std::getline(file, line);
-  Dijkstra dijkstra;
-  int number = 0;
-  int compared = 0;
-  while (std::getline(file, line)) {
-    if (line.empty() || number++ % 40 != 0)
-      continue;  // a spread over all lengths keeps the test short
-    std::istringstream fields(line);
-    std::string bucket, name;
-    int width = 0, height = 0;
-    Cell start, goal;
-    std::string length;
-    fields >> bucket >> name >> width >> height >> start.x >> start.y >> goal.x >> goal.y >> length;
-    const auto path = dijkstra.plan(grid, start, goal);
-    ASSERT_TRUE(path) << line;
-    EXPECT_NEAR(path->cost, std::stod(length), tolerance_of(length)) << line;
-    ++compared;
-  }
-  EXPECT_GE(compared, 4);
-}
-
-INSTANTIATE_TEST_SUITE_P(Maps, MovingAi,
-                         testing::Values("arena", "den312d", "brc202d", "orz900d", "AR0011SR",
-                                         "32room_000", "random512-25-0", "maze512-4-0",
-                                         "Berlin_0_512", "Boston_0_512"),
-                         [](const auto& tested) {
-                           std::string name = tested.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
 
 }  // namespace
 }  // namespace coop

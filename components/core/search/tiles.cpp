@@ -1,0 +1,25 @@
+#include "core/search/tiles.hpp"
+
+#include <algorithm>
+
+namespace coop::search {
+
+bool Tiles::update(const TraversalGrid& grid) {
+  if (revision_ == grid.revision()) return false;
+  revision_ = grid.revision();
+  const auto width = static_cast<std::uint32_t>(grid.geometry().width + 2);
+  const auto height = static_cast<std::uint32_t>(grid.geometry().height + 2);
+  row_of_tiles_ = (width + kSide - 1) / kSide * kTile;
+  cells_.assign(static_cast<std::size_t>(row_of_tiles_) * ((height + kSide - 1) / kSide),
+                kLethalCost);
+  const Cost* from = grid.cells().data();
+  for (std::uint32_t y = 0; y < height; ++y, from += width) {
+    Cost* to = &cells_[(y / kSide) * row_of_tiles_ + (y % kSide) * kSide];
+    for (std::uint32_t x = 0; x < width; x += kSide, to += kTile) {
+      std::copy_n(from + x, std::min(kSide, width - x), to);
+    }
+  }
+  return true;
+}
+
+}  // namespace coop::search
