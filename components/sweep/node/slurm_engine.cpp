@@ -73,8 +73,10 @@ void SlurmEngine::make(const Sweep& sweep, const std::vector<Run>& runs, const W
 std::string SlurmEngine::ask(const std::vector<std::string>& words) const {
   const std::string program = fs::path(words.front()).filename().string();
   const Answer answer = Command(words, folder_ / (program + ".out")).wait();
-  if (answer.code != 0) throw std::runtime_error(program + ": " + answer.line());
-  return answer.text;
+  if (answer.code == 0) return answer.text;
+  // Most of its messages begin with its name.
+  const std::string line = answer.line();
+  throw std::runtime_error(line.starts_with(program) ? line : program + ": " + line);
 }
 
 void SlurmEngine::submit(const Sweep& sweep, const std::vector<Run>& runs) {
@@ -153,11 +155,12 @@ void SlurmEngine::give_up(const Sweep& sweep, const Run& run, std::size_t index)
   const std::string task = fmt::format("{}_{}", number_, index);
   const auto state = job_->state().tasks.find(static_cast<int>(index));
   const fs::path log = folder_ / ("task-" + task + ".log");
+  const int tries = failures_.at(run.number);
   RunResult result;
   result.identity = run.identity(sweep.config);
   result.problem =
-      fmt::format("no result in {} tries; Slurm task {}: {}; {}", failures_.at(run.number), task,
-                  state == job_->state().tasks.end() ? "ended" : state->second,
+      fmt::format("no result in {} {}; Slurm task {}: {}; {}", tries, tries == 1 ? "try" : "tries",
+                  task, state == job_->state().tasks.end() ? "ended" : state->second,
                   fs::exists(log) ? "its log ends with: " + last_line(log) : "it left no log");
   write_file_atomically(result_file(sweep.folder, run), to_json(result));
 }
