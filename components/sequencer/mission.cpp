@@ -31,6 +31,7 @@ void Mission::pause() {
   if (!state_.is_active() || state_.phase == MissionPhase::kPaused) return;
   state_.resume_phase = state_.phase;
   drive_.reset();
+  pick_begun_.reset();  // the arm's time begins anew with the mission's
   enter(MissionPhase::kPaused, "paused");
 }
 
@@ -59,6 +60,7 @@ MissionActions Mission::step(const MissionSnapshot& snapshot, const MapQueries& 
       changed_ = true;
     }
     adopt_eggs(snapshot);
+    note_late_pick(snapshot);
     switch (state_.phase) {
       case MissionPhase::kSearching:
         step_waypoints(snapshot, now);

@@ -138,6 +138,8 @@ class Mission {
   [[nodiscard]] int pictures_without(const MissionSnapshot& snapshot, const EggTask& egg);
   [[nodiscard]] bool try_another_side(const MissionSnapshot& snapshot, EggTask& egg);
   void attempt_failed(EggTask& egg, const std::string& reason);
+  void egg_picked(EggTask& egg);
+  void note_late_pick(const MissionSnapshot& snapshot);
   void egg_not_seen(EggTask& egg);
   void enter(MissionPhase phase, const std::string& detail);
   void drive_to(const Pose2& pose, const MissionSnapshot& snapshot, Time now);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
+#include <unordered_set>
 
 #include "sequencer/mission.hpp"
 
@@ -19,9 +21,11 @@ constexpr double kMoved = 0.3;
 /// Confirmed tracks become eggs of the mission; positions follow the tracks until the pick.
 void Mission::adopt_eggs(const MissionSnapshot& snapshot) {
   if (state_.kind != MissionKind::kCollect || snapshot.tracks == nullptr) return;
+  std::size_t after = 0;  // eggs stand in the order of their tracks, but for a few
   for (const EggTrack& track : *snapshot.tracks) {
     if (!track.confirmed || track.picked) continue;
-    EggTask* egg = state_.find_egg(track.id);
+    EggTask* egg = state_.find_egg(track.id, after);
+    if (egg != nullptr) after = static_cast<std::size_t>(egg - state_.eggs.data()) + 1;
     if (egg == nullptr) {
       EggTask& fresh = state_.eggs.emplace_back();
       fresh.id = track.id;
@@ -69,25 +73,29 @@ void Mission::step_ordering(const MissionSnapshot& snapshot, const MapQueries& q
     }
     (egg.unseen > 0 ? unseen : open).push_back(&egg);
   }
-  if (open.empty()) open = std::move(unseen);
+  if (open.empty()) open.swap(unseen);
   state_.current_egg.clear();
   if (open.empty()) return end_or_search_again(now);
   last_look_.reset();
   const OrderedEggs ordered = queries.order(*snapshot.robot_in_map, open);
   if (ordered.order.empty()) return take_goal_back(now);  // no map yet
-  for (const std::string& id : ordered.order) state_.find_egg(id)->phase = EggPhase::kQueued;
+  const std::unordered_set<std::string_view> queued(ordered.order.begin(), ordered.order.end());
+  std::unordered_set<std::string_view> picked;
+  for (EggTask& egg : state_.eggs) {
+    if (queued.contains(egg.id)) egg.phase = EggPhase::kQueued;
+    if (egg.phase == EggPhase::kPicked) picked.insert(egg.id);
+  }
   // What was picked stays in front: the order tells the whole tour.
-  std::erase_if(state_.order, [this](const std::string& id) {
-    const EggTask* egg = state_.find_egg(id);
-    return egg == nullptr || egg->phase != EggPhase::kPicked;
-  });
+  std::erase_if(state_.order, [&](const std::string& id) { return !picked.contains(id); });
   if (state_.order.empty()) {
     state_.tour_cost = ordered.cost;
     state_.tour_cost_alternative = ordered.alternative_cost;
   }
   state_.order.insert(state_.order.end(), ordered.order.begin(), ordered.order.end());
+  for (const EggTask* egg : unseen) state_.order.push_back(egg->id);
   state_.current_egg = ordered.order.front();
   arrived_.reset();
+  refusals_ = 0;
   changed_ = true;
   enter(MissionPhase::kDriving, "to " + state_.current_egg);
 }
@@ -204,12 +212,9 @@ void Mission::step_picking(const MissionSnapshot& snapshot, Time now) {
   const bool answered =
       snapshot.pick && snapshot.pick->pick_id == state_.pick_id && snapshot.pick->is_final;
   if (answered && snapshot.pick->picked) {
-    egg->phase = EggPhase::kPicked;
-    egg->reason.clear();
-    actions_.picked_egg = egg->id;
+    egg_picked(*egg);
     state_.pick_id.clear();
     pick_begun_.reset();
-    changed_ = true;
     enter(MissionPhase::kOrdering, egg->id + " picked");
     return;
   }
@@ -222,6 +227,36 @@ void Mission::step_picking(const MissionSnapshot& snapshot, Time now) {
   if (now - pick_told_ >= seconds(config_.pick_repeat)) {
     pick_told_ = now;
     actions_.pick = PickOrder{state_.pick_id, egg->id, egg->egg_in_map};
+  }
+}
+
+void Mission::egg_picked(EggTask& egg) {
+  egg.phase = EggPhase::kPicked;
+  egg.reason.clear();
+  actions_.picked_egg = egg.id;
+  changed_ = true;
+}
+
+/// The arm's answer to a pick that was given up: the egg is in the basket all the same.
+void Mission::note_late_pick(const MissionSnapshot& snapshot) {
+  if (!snapshot.pick || !snapshot.pick->picked || !snapshot.pick->is_final) return;
+  const std::string& pick_id = snapshot.pick->pick_id;
+  const std::string ours = state_.mission_id + "/";
+  if (pick_id == state_.pick_id || !pick_id.starts_with(ours)) return;
+  const std::string_view rest = std::string_view(pick_id).substr(ours.size());
+  EggTask* egg = state_.find_egg(rest.substr(0, rest.rfind('/')));
+  if (egg == nullptr || egg->phase == EggPhase::kPicked) return;
+  egg_picked(*egg);
+  if (state_.current_egg != egg->id) return;
+  drive_.reset();
+  arrived_.reset();
+  refusals_ = 0;
+  state_.pick_id.clear();
+  pick_begun_.reset();
+  if (state_.phase == MissionPhase::kPaused) {
+    state_.resume_phase = MissionPhase::kOrdering;
+  } else {
+    enter(MissionPhase::kOrdering, egg->id + " picked after all");
   }
 }
 

@@ -12,9 +12,12 @@ std::string_view to_string(MissionPhase phase) {
   return kNames.at(static_cast<std::size_t>(phase));
 }
 
-EggTask* MissionState::find_egg(std::string_view id) {
-  const auto found = std::ranges::find(eggs, id, &EggTask::id);
-  return found == eggs.end() ? nullptr : &*found;
+EggTask* MissionState::find_egg(std::string_view id, std::size_t first) {
+  const auto middle = eggs.begin() + static_cast<std::ptrdiff_t>(std::min(first, eggs.size()));
+  auto found = std::ranges::find(middle, eggs.end(), id, &EggTask::id);
+  if (found != eggs.end()) return &*found;
+  found = std::ranges::find(eggs.begin(), middle, id, &EggTask::id);
+  return found == middle ? nullptr : &*found;
 }
 
 const EggTask* MissionState::find_egg(std::string_view id) const {

@@ -70,7 +70,8 @@ struct MissionState {
   bool has_home = false;
   Pose2 home_in_map;  ///< where the mission began
 
-  [[nodiscard]] EggTask* find_egg(std::string_view id);
+  /// Looked for from the egg of index `first` on, round to the one before it.
+  [[nodiscard]] EggTask* find_egg(std::string_view id, std::size_t first = 0);
   [[nodiscard]] const EggTask* find_egg(std::string_view id) const;
   [[nodiscard]] int count(EggPhase phase) const;
   [[nodiscard]] bool is_active() const;  ///< neither idle nor at its end

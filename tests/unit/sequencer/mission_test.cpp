@@ -247,6 +247,7 @@ TEST_F(MissionTest, WhateverIsAnsweredNoEggIsLostOrPickedTwice) {
     tracks_.clear();
     goals_.clear();
     picks_.clear();
+    pick_.reset();
     std::map<std::string, int> picked;
     mission_.start(MissionKind::kCollect, "m", {{"gate", {1, 0, 0}}});
     for (int i = 0; i < 2000 && mission_.state().is_active(); ++i) {
