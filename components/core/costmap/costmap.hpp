@@ -57,6 +57,9 @@ class Costmap {
   [[nodiscard]] std::span<std::uint8_t> obstacles() { return obstacles_; }
   [[nodiscard]] std::span<std::uint8_t> unknown() { return unknown_; }
   void update();
+  /// The same result as update() to the bit, where obstacles() and unknown() have changed since the
+  /// last update within these windows only; costs in proportion to what they change.
+  void update(std::span<const CellWindow> changed);
 
   [[nodiscard]] const GridGeometry& geometry() const { return costs_.geometry; }
   [[nodiscard]] const Grid<Cost>& costs() const { return costs_; }
@@ -66,6 +69,9 @@ class Costmap {
   [[nodiscard]] std::span<const std::uint8_t> obstacles() const { return obstacles_; }
 
  private:
+  void make_table();
+  void color(std::size_t first, std::size_t last);
+
   double inscribed_radius_;
   double max_distance_;
   InflationConfig config_;
@@ -75,6 +81,7 @@ class Costmap {
   Grid<Cost> costs_;
   std::vector<Cost> cost_of_squared_;  ///< index: squared cells
   double table_resolution_ = 0.0;
+  bool complete_ = false;  ///< update() has run since reset()
 };
 
 /// For people and recorders, as ROS draws costmaps: 0 free, 1 to 98 restricted, 99 inscribed, 100

@@ -24,6 +24,13 @@ class DistanceField {
     transform_.run(obstacles, geometry.width, geometry.height, squared_, cap_);
   }
 
+  /// After update(), where obstacles have changed within the windows only: the same field as
+  /// update() would give, to the bit. Returns what was measured anew, valid until the next call.
+  std::span<const CellRun> update_within(std::span<const CellWindow> changed,
+                                         std::span<const std::uint8_t> obstacles) {
+    return transform_.update(obstacles, changed, squared_);
+  }
+
   [[nodiscard]] const GridGeometry& geometry() const { return geometry_; }
   [[nodiscard]] int cap() const { return cap_; }  ///< cells
   [[nodiscard]] std::span<const std::int32_t> squared_cells() const { return squared_; }

@@ -64,7 +64,8 @@ TEST(DistanceTransform, EqualsBruteForceOnRandomGridsWithAndWithoutCap) {
     const double density = trial % 3 == 0 ? 0.005 : (trial % 3 == 1 ? 0.1 : 0.7);
     std::vector<std::uint8_t> sources(static_cast<std::size_t>(width * height));
     for (auto& cell : sources) cell = random.uniform() < density ? 1 : 0;
-    for (const int cap : {3, 11, DistanceTransform::kNoCap}) {
+    for (const int cap : {1, 3, 11, DistanceTransform::kSmallCap, DistanceTransform::kSmallCap + 1,
+                          DistanceTransform::kNoCap}) {
       std::vector<std::int32_t> squared(sources.size(), -1);
       transform.run(sources, width, height, squared, cap);
       EXPECT_EQ(squared, brute_force(sources, width, height, cap))
