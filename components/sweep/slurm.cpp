@@ -129,7 +129,8 @@ ArrayState array_state(std::string_view printed) {
     std::string index;
     std::string name;
     std::string reason;
-    words >> index >> name >> reason;
+    words >> index >> name >> std::ws;
+    std::getline(words, reason);
     const auto place = number(index);
     if (!place || name.empty()) continue;
     state.tasks[*place] = name;

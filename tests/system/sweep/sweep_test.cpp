@@ -1,5 +1,6 @@
 // A small sweep of whole systems: stopped on the way, gone on with, and the same rows from another
 // call.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -59,6 +60,24 @@ TEST(SweepSystem, OneRunOfManyIsMadeAloneAndNotMixedWithThoseOfOtherInputs) {
             "sweep: the results in " + results.string() +
                 " are of other inputs (changed: sweep: settings); --restart makes "
                 "all of them anew, or name another folder with -o\n");
+}
+
+TEST(SweepSystem, ARunDuringWhichAnInputChangedHasNoResult) {
+  const TemporaryFolder folder;
+  const fs::path launch = folder.path() / "own.yaml";
+  const std::string text =
+      std::string("include: [") + COOP_SOURCE_DIR + "/config/launch/experiment.yaml]\n";
+  write_file_atomically(launch, text);
+  const TinySweep tiny(launch.string());
+  const fs::path results = tiny.path("results");
+  auto task = tiny.start(results, {"--only", "1"});
+  ASSERT_TRUE(wait_until([&] { return fs::exists(results / "runs/0001/launcher.log"); }, kLimit));
+  write_file_atomically(launch, text + "# edited\n");
+  const auto ended = task->wait(kLimit);
+  ASSERT_TRUE(ended);
+  EXPECT_EQ(ended->code, 1) << task->output();
+  EXPECT_THAT(read_file(results / "runs/0001/result.json"),
+              ::testing::HasSubstr("inputs changed while it ran: " + launch.string()));
 }
 
 }  // namespace

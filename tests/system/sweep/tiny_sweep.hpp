@@ -17,15 +17,17 @@ inline constexpr std::chrono::minutes kSweepLimit{5};
 /// accounted for.
 class TinySweep {
  public:
-  TinySweep() {
+  explicit TinySweep(const std::string& launch = "config/launch/experiment.yaml") {
     control_folder();
     write_file_atomically(path("tiny.yaml"),
                           "title: tiny\n"
-                          "launch: config/launch/experiment.yaml\n"
-                          "seeds: 1\n"
-                          "settings: [referee.time_limit=2]\n"
-                          "grid: [{key: sequencer.mission.settle_time, values: [0.5, 0.6]}]\n"
-                          "figures: [{name: hit, column: in_range, kind: share}]\n");
+                          "launch: " +
+                              launch +
+                              "\n"
+                              "seeds: 1\n"
+                              "settings: [referee.time_limit=2]\n"
+                              "grid: [{key: sequencer.mission.settle_time, values: [0.5, 0.6]}]\n"
+                              "figures: [{name: hit, column: in_range, kind: share}]\n");
   }
   [[nodiscard]] std::filesystem::path path(const std::string& name) const {
     return folder_.path() / name;

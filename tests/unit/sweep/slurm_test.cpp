@@ -71,6 +71,11 @@ TEST(ArrayState, counts_what_is_not_over) {
   EXPECT_EQ(state.tasks.at(4), "FAILED");
 }
 
+TEST(ArrayState, a_reason_may_have_several_words) {
+  EXPECT_EQ(array_state("0 PENDING launch failed requeued held\n").reason,
+            "launch failed requeued held");
+}
+
 TEST(ArrayState, of_nothing_is_empty) {
   EXPECT_THAT(array_state("").tasks, IsEmpty());
 }
