@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 
 #include "experiments/casma/report.hpp"
@@ -43,13 +44,15 @@ class Progress {
 };
 
 int run(const StageOptions& options, const std::string& paper, const std::string& folder) {
+  // A folder that cannot be written to shows now, not after the runs.
+  std::filesystem::create_directories(folder);
   Findings findings{load_paper(paper), options, {}, {}, {}, {}};
   findings.rosenbrock = run_rosenbrock(options);
   findings.plans = run_maps(findings.paper, options);
   findings.moving = run_moving(findings.paper, options);
   findings.pilot = run_pilot(findings.paper, options);
   if (stop) {
-    std::cerr << "\nstopped; nothing was written\n";
+    std::cerr << "\nstopped; no report was written\n";
     return kStopped;
   }
   for (const Table& table : all_tables(findings)) std::cout << as_text(table) << '\n';
