@@ -57,10 +57,39 @@ void ObstacleLayer::set_geometry(const GridGeometry& geometry) {
   }
   states_ = std::move(states);
   marked_at_ = std::move(marked_at);
+  rebuild_tiles();
+}
+
+void ObstacleLayer::rebuild_tiles() {
+  const GridGeometry& geometry = states_.geometry;
+  tiles_in_row_ = (geometry.width + kTileSide - 1) / kTileSide;
+  const int rows = (geometry.height + kTileSide - 1) / kTileSide;
+  const std::size_t count =
+      static_cast<std::size_t>(tiles_in_row_) * static_cast<std::size_t>(rows);
+  tile_changed_.assign(count, 1);
+  tile_marked_.assign(count, 1);
+}
+
+CellWindow ObstacleLayer::window_of(std::size_t tile) const {
+  const int x = static_cast<int>(tile) % tiles_in_row_ * kTileSide;
+  const int y = static_cast<int>(tile) / tiles_in_row_ * kTileSide;
+  return {{x, y},
+          {std::min(x + kTileSide, states_.geometry.width),
+           std::min(y + kTileSide, states_.geometry.height)}};
+}
+
+void ObstacleLayer::take_changes(std::vector<CellWindow>& changed) {
+  changed.clear();
+  for (std::size_t tile = 0; tile < tile_changed_.size(); ++tile) {
+    if (tile_changed_[tile] == 0) continue;
+    tile_changed_[tile] = 0;
+    changed.push_back(window_of(tile));
+  }
 }
 
 void ObstacleLayer::clear() {
   std::fill(states_.cells.begin(), states_.cells.end(), State::kUnseen);
+  rebuild_tiles();
 }
 
 std::int32_t ObstacleLayer::milliseconds(Time stamp) {
@@ -81,6 +110,9 @@ void ObstacleLayer::integrate(const LaserScan& scan, const ScanPose& pose,
   for (const Beam& beam : beams_) {
     if (!beam.marks || !states_.geometry.contains(beam.to)) continue;
     const std::size_t index = states_.geometry.index(beam.to);
+    const std::size_t tile = tile_of(beam.to);
+    if (states_.cells[index] != State::kMarked) tile_changed_[tile] = 1;
+    tile_marked_[tile] = 1;
     states_.cells[index] = State::kMarked;
     marked_at_[index] = now;
   }
@@ -128,8 +160,10 @@ void ObstacleLayer::clear_ray(const Beam& beam) {
     const Cell cell{static_cast<int>(x >> 16), static_cast<int>(y >> 16)};
     if (!states_.geometry.contains(cell)) continue;
     const std::size_t index = states_.geometry.index(cell);
+    if (states_.cells[index] == State::kClear) continue;
     if (states_.cells[index] == State::kMarked && marked_at_[index] > clear_before_) continue;
     states_.cells[index] = State::kClear;
+    tile_changed_[tile_of(cell)] = 1;
   }
 }
 
@@ -137,9 +171,21 @@ void ObstacleLayer::expire(Time now) {
   if (config_.persistence <= 0.0) return;
   const std::int32_t oldest =
       milliseconds(now) - static_cast<std::int32_t>(1000.0 * config_.persistence);
-  for (std::size_t i = 0; i < states_.cells.size(); ++i) {
-    if (states_.cells[i] == State::kMarked && marked_at_[i] < oldest) {
-      states_.cells[i] = State::kUnseen;
+  for (std::size_t tile = 0; tile < tile_marked_.size(); ++tile) {
+    if (tile_marked_[tile] == 0) continue;
+    tile_marked_[tile] = 0;
+    const CellWindow window = window_of(tile);
+    for (int y = window.low.y; y < window.high.y; ++y) {
+      for (int x = window.low.x; x < window.high.x; ++x) {
+        const std::size_t index = states_.geometry.index({x, y});
+        if (states_.cells[index] != State::kMarked) continue;
+        if (marked_at_[index] < oldest) {
+          states_.cells[index] = State::kUnseen;
+          tile_changed_[tile] = 1;
+        } else {
+          tile_marked_[tile] = 1;
+        }
+      }
     }
   }
 }

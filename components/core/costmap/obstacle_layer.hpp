@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/config/fields.hpp"
+#include "core/costmap/distance_transform.hpp"
 #include "core/costmap/footprint.hpp"
 #include "core/grid.hpp"
 #include "core/pose.hpp"
@@ -50,6 +51,10 @@ class ObstacleLayer {
   /// Lets marks older than the persistence expire: they become unseen.
   void expire(Time now);
 
+  /// Windows that hold every cell whose state has changed since the last call (since the beginning,
+  /// at the first), and others: what a costmap has to look at again.
+  void take_changes(std::vector<CellWindow>& changed);
+
   [[nodiscard]] const GridGeometry& geometry() const { return states_.geometry; }
   [[nodiscard]] State state(Cell cell) const { return states_.at_or(cell, State::kUnseen); }
   [[nodiscard]] std::span<const State> states() const { return states_.cells; }
@@ -64,9 +69,20 @@ class ObstacleLayer {
   void clear_ray(const Beam& beam);
   [[nodiscard]] std::int32_t milliseconds(Time stamp);
 
+  /// Square pieces of the grid, each with what is known of it as a whole.
+  static constexpr int kTileSide = 16;
+  [[nodiscard]] std::size_t tile_of(Cell cell) const {
+    return static_cast<std::size_t>(cell.y / kTileSide * tiles_in_row_ + cell.x / kTileSide);
+  }
+  [[nodiscard]] CellWindow window_of(std::size_t tile) const;
+  void rebuild_tiles();
+
   ObstacleLayerConfig config_;
   Grid<State> states_;
   std::vector<std::int32_t> marked_at_;  ///< ms since epoch_, of the last mark
+  int tiles_in_row_ = 0;
+  std::vector<std::uint8_t> tile_changed_;  ///< 1: a state in the tile has changed
+  std::vector<std::uint8_t> tile_marked_;   ///< 1: cells of the tile may be marked
   std::vector<Beam> beams_;
   Time epoch_{};
   std::int32_t clear_before_ = 0;  ///< marks after this withstand clearing, ms

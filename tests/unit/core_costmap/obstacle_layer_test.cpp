@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 
@@ -140,6 +141,37 @@ TEST(ObstacleLayer, ATimeSetBackDoesNotKeepOldMarksAlive) {
   layer.integrate(scan_of({1.0F}, 10000.0), at(0.55, 0.55), kFootprint);
   layer.integrate(scan_of({2.0F}, 10.0), at(0.55, 0.55), kFootprint);
   EXPECT_EQ(layer.state({16, 5}), State::kClear);
+}
+
+TEST(ObstacleLayer, TellsWhereItHasChangedSinceItWasLastAsked) {
+  ObstacleLayer layer = make_layer({.hold_time = 0.0, .persistence = 5.0});
+  std::vector<CellWindow> changed;
+  layer.take_changes(changed);
+  EXPECT_FALSE(changed.empty()) << "at first everything is new";
+  std::vector<State> before(layer.states().begin(), layer.states().end());
+  const auto changes_are_told = [&] {
+    layer.take_changes(changed);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const Cell cell = layer.geometry().cell_at(i);
+      const bool told = std::any_of(changed.begin(), changed.end(), [cell](const auto& window) {
+        return cell.x >= window.low.x && cell.y >= window.low.y && cell.x < window.high.x &&
+               cell.y < window.high.y;
+      });
+      if (before[i] != layer.states()[i] && !told) return false;
+    }
+    before.assign(layer.states().begin(), layer.states().end());
+    return !changed.empty();
+  };
+  layer.integrate(scan_of({1.0F}, 10.0), at(0.55, 0.55), kFootprint);
+  EXPECT_TRUE(changes_are_told()) << "a mark and the cells before it";
+  layer.integrate(scan_of({1.0F}, 10.1), at(0.55, 0.55), kFootprint);
+  EXPECT_FALSE(changes_are_told()) << "the same again";
+  layer.integrate(scan_of({1.3F}, 11.0), at(0.55, 0.55), kFootprint);
+  EXPECT_TRUE(changes_are_told()) << "the obstacle is farther away";
+  layer.expire(time_from_seconds(20.0));
+  EXPECT_TRUE(changes_are_told()) << "its mark has expired";
+  layer.clear();
+  EXPECT_TRUE(changes_are_told());
 }
 
 TEST(ScanPose, IsThatOfTheFirstAndOfTheLastBeam) {
