@@ -71,9 +71,9 @@ void GlobalPlannerConfig::describe(config::Fields& fields) {
 
 GlobalPlanner::GlobalPlanner(const GlobalPlannerConfig& config,
                              const std::vector<Eigen::Vector2d>& footprint,
-                             double min_turning_radius)
+                             double min_turning_radius, const RandomStream& random)
     : config_(config),
-      planner_(config.path, footprint, min_turning_radius),
+      planner_(config.path, footprint, min_turning_radius, random),
       map_(config.map, Footprint(footprint), config.path.poses.padding,
            planner_.reach(kUsualResolution)) {}
 

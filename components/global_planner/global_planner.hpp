@@ -79,8 +79,9 @@ struct DriverReport {
 /// cheaper one exists; so it does not flip to and fro between ways of nearly equal cost.
 class GlobalPlanner {
  public:
+  /// `random`: for planners that use chance.
   GlobalPlanner(const GlobalPlannerConfig& config, const std::vector<Eigen::Vector2d>& footprint,
-                double min_turning_radius);
+                double min_turning_radius, const RandomStream& random);
 
   /// Called every some milliseconds during a long update().
   void on_progress(std::function<void()> callback) { planner_.on_progress(std::move(callback)); }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/config/error.hpp"
 #include "core/costmap/footprint.hpp"
 #include "global_planner/path_smoother.hpp"
 
@@ -23,13 +24,44 @@ double length_of(const std::vector<Pose2>& poses) {
   return length;
 }
 
+/// The middles of the path's cells; an any-angle path has only its turns, and gets points between
+/// them as near to each other as those of other paths.
+std::vector<Eigen::Vector2d> points_along(const GridGeometry& geometry,
+                                          const std::vector<Cell>& cells) {
+  std::vector<Eigen::Vector2d> points{geometry.center_of(cells.front())};
+  for (std::size_t i = 1; i < cells.size(); ++i) {
+    const Eigen::Vector2d from = geometry.center_of(cells[i - 1]);
+    const Eigen::Vector2d step = geometry.center_of(cells[i]) - from;
+    const int parts = std::max(1, static_cast<int>(step.norm() / geometry.resolution));
+    for (int part = 1; part <= parts; ++part) points.push_back(from + step * part / parts);
+  }
+  if (points.size() == 1) points.push_back(points.front());
+  return points;
+}
+
+PlanFailureReason reason_of(SearchFailure failure) {
+  switch (failure) {
+    case SearchFailure::kStartBlocked:
+      return PlanFailureReason::kStartBlocked;
+    case SearchFailure::kGoalBlocked:
+      return PlanFailureReason::kGoalBlocked;
+    case SearchFailure::kStartOutside:
+    case SearchFailure::kEmptyGrid:
+      return PlanFailureReason::kStartOutside;
+    case SearchFailure::kGoalOutside:
+      return PlanFailureReason::kGoalOutside;
+    case SearchFailure::kNoPath:
+    case SearchFailure::kCostsDiffer:
+      break;
+  }
+  return PlanFailureReason::kNoPath;
+}
+
 }  // namespace
 
 void PathPlannerConfig::describe(config::Fields& fields) {
-  fields.flag(
-      "drivable", drivable,
-      {.help =
-           "true: paths an Ackermann base can drive; false: Dijkstra's path as in the egg paper"});
+  fields.choice("planner", planner, kPlanners,
+                {.help = "hybrid_astar: manoeuvres of the base; the others search the grid alone"});
   fields.number("spacing", spacing,
                 {.unit = "m", .help = "between poses of the path", .min = 0.01, .max = 0.5});
   fields.number("open_radius", open_radius,
@@ -45,14 +77,27 @@ void PathPlannerConfig::describe(config::Fields& fields) {
   fields.section("traversal", traversal);
   fields.section("poses", poses);
   fields.section("drivable_search", drivable_search);
+  fields.section("swarms", swarms);
+}
+
+void PathPlannerConfig::validate() const {
+  if (planner != kJumpPoint) return;
+  if (traversal.restricted_weight != 0.0 ||
+      (traversal.allow_unknown && traversal.unknown_weight != 0.0)) {
+    throw config::Error(
+        "path.planner: jump_point searches grids without prices: expected "
+        "path.traversal.restricted_weight: 0 (and unknown_weight: 0 where unknown is allowed)");
+  }
 }
 
 PathPlanner::PathPlanner(const PathPlannerConfig& config,
-                         const std::vector<Eigen::Vector2d>& footprint, double min_turning_radius)
+                         const std::vector<Eigen::Vector2d>& footprint, double min_turning_radius,
+                         const RandomStream& random)
     : config_(config),
       footprint_(footprint),
       grid_(config.traversal),
-      search_(config.drivable_search, min_turning_radius) {}
+      search_(config.drivable_search, min_turning_radius),
+      grid_planner_(make_grid_planner(config.planner, config.swarms, random)) {}
 
 PoseChecker& PathPlanner::checker_for(double resolution) {
   if (!checker_ || checker_resolution_ != resolution) {
@@ -75,24 +120,15 @@ Result<Plan, PlanFailure> PathPlanner::plan(const Costmap& costmap, const Pose2&
   grid_.update(costmap.costs());
   grid_.open_around(start_cell, config_.open_radius);
   grid_.open_around(goal_cell, config_.open_radius);
-  const auto approach = flood_from_approach(start_cell, goal);
-  if (!approach) {
-    return failure(PlanFailureReason::kNoPath, "obstacles lie all round the goal or the robot");
-  }
-  auto plan =
-      config_.drivable ? drivable_plan(start, goal, direction, *approach) : grid_plan(start, goal);
-  if (plan) {
-    plan->length = length_of(plan->poses);
-    plan->grid_cost = cost_near(start_cell) + *approach;
-  }
+  auto plan = grid_planner_ ? grid_plan(start, goal) : drivable_plan(start, goal, direction);
+  if (plan) plan->length = length_of(plan->poses);
   return plan;
 }
 
 /// Floods the grid from where the longest straight approach begins that is free and can be reached,
 /// and gives its length.
 std::optional<double> PathPlanner::flood_from_approach(Cell start, const Pose2& goal) {
-  static const std::vector<double> kNone{0.0};
-  for (const double length : config_.drivable ? search_.approaches() : kNone) {
+  for (const double length : search_.approaches()) {
     bool free = true;
     for (double back = length; back > 0.0 && free; back -= kApproachSpacing) {
       free = checker_->free(goal * Pose2{-back, 0.0, 0.0});
@@ -180,8 +216,13 @@ double PathPlanner::cost_near(Cell cell) const {
 }
 
 Result<Plan, PlanFailure> PathPlanner::drivable_plan(const Pose2& start, const Pose2& goal,
-                                                     int direction, double approach) {
-  const auto path = search_.plan({grid_, dijkstra_, *checker_, approach}, start, goal, direction);
+                                                     int direction) {
+  const Cell start_cell = grid_.geometry().cell_of(start.position());
+  const auto approach = flood_from_approach(start_cell, goal);
+  if (!approach) {
+    return failure(PlanFailureReason::kNoPath, "obstacles lie all round the goal or the robot");
+  }
+  const auto path = search_.plan({grid_, dijkstra_, *checker_, *approach}, start, goal, direction);
   if (!path) {
     return failure(PlanFailureReason::kNoPath,
                    path.error() == DrivableFailure::kExhausted
@@ -193,22 +234,22 @@ Result<Plan, PlanFailure> PathPlanner::drivable_plan(const Pose2& start, const P
   plan.poses.back() = goal;
   plan.cost = path->cost;
   plan.states = path->states;
+  plan.grid_cost = cost_near(start_cell) + *approach;
   return plan;
 }
 
 Result<Plan, PlanFailure> PathPlanner::grid_plan(const Pose2& start, const Pose2& goal) {
-  const Cell start_cell = grid_.geometry().cell_of(start.position());
-  if (!grid_.passable(start_cell)) {
-    return failure(PlanFailureReason::kStartBlocked, "the robot stands on an obstacle of the map");
-  }
-  const GridPath path = dijkstra_.path_from(grid_, start_cell);
-  std::vector<Eigen::Vector2d> points;
-  for (const Cell cell : path.cells) points.push_back(grid_.geometry().center_of(cell));
+  const GridGeometry& geometry = grid_.geometry();
+  const auto path = grid_planner_->plan(grid_, geometry.cell_of(start.position()),
+                                        geometry.cell_of(goal.position()));
+  if (!path) return failure(reason_of(path.error()), std::string(to_string(path.error())));
+  std::vector<Eigen::Vector2d> points = points_along(geometry, path->cells);
   points.front() = start.position();
   points.back() = goal.position();
   Plan plan;
   plan.poses = orient(smooth(grid_, std::move(points)), config_.spacing, goal.yaw);
-  plan.cost = path.cost;
+  plan.cost = path->cost;
+  plan.grid_cost = path->cost;
   return plan;
 }
 

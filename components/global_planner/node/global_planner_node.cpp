@@ -66,11 +66,16 @@ void GlobalPlannerNodeConfig::describe(config::Fields& fields) {
   planner.describe(fields);
 }
 
+void GlobalPlannerNodeConfig::validate() const {
+  planner.path.validate();
+}
+
 GlobalPlannerNode::GlobalPlannerNode(runtime::Node& node, const Config& config)
     : node_(node),
       config_(config),
       planner_(config.planner, robot::RobotModel::load(config.robot).footprint(),
-               robot::RobotModel::load(config.robot).ackermann().min_turning_radius()),
+               robot::RobotModel::load(config.robot).ackermann().min_turning_radius(),
+               node.random("planner")),
       transforms_(node.transforms()),
       scans_("map", kPatience, 20),
       plan_publisher_(node.advertise<nav_msgs::msg::Path>("plan", Qos::kStateLatched)),

@@ -19,6 +19,7 @@ struct GlobalPlannerNodeConfig {
   GlobalPlannerConfig planner;
 
   void describe(config::Fields& fields);
+  void validate() const;
 };
 
 /// Shell of the global planner. A goal's name is its stamp in nanoseconds; the plan carries the

@@ -3,7 +3,6 @@
 namespace coop::global_planner::swarm {
 
 void SwarmConfig::describe(config::Fields& fields) {
-  fields.integer("seed", seed, {.help = "of all draws", .min = 0});
   fields.section("casma", casma);
   fields.section("aco", aco);
   fields.section("fa", fa);
@@ -13,21 +12,17 @@ void SwarmConfig::describe(config::Fields& fields) {
   fields.section("paths", paths);
 }
 
-std::unique_ptr<GridPlanner> make_swarm_planner(std::string_view name, const SwarmConfig& config) {
-  const auto stream = [&](std::string_view stream_name) {
-    return RandomStream(static_cast<std::uint64_t>(config.seed), stream_name);
+std::unique_ptr<GridPlanner> make_swarm_planner(std::string_view name, const SwarmConfig& config,
+                                                const RandomStream& random) {
+  const auto over_via_points = [&](std::unique_ptr<Optimiser> optimiser) {
+    return std::make_unique<ViaPointPlanner>(config.paths, std::move(optimiser), random);
   };
-  const auto over_via_points = [&](std::unique_ptr<Optimiser> optimiser,
-                                   std::string_view stream_name) {
-    return std::make_unique<ViaPointPlanner>(config.paths, std::move(optimiser),
-                                             stream(stream_name));
-  };
-  if (name == "casma") return std::make_unique<Casma>(config.casma, stream("casma"));
-  if (name == "aco") return std::make_unique<AntColony>(config.aco, stream("aco"));
-  if (name == "fa") return over_via_points(std::make_unique<Fireflies>(config.fa), "FA");
-  if (name == "pso") return over_via_points(std::make_unique<ParticleSwarm>(config.pso), "PSO");
-  if (name == "wpa") return over_via_points(std::make_unique<WolfPack>(config.wpa), "WPA");
-  if (name == "tabu") return std::make_unique<Tabu>(config.tabu, stream("tabu"));
+  if (name == "casma") return std::make_unique<Casma>(config.casma, random);
+  if (name == "aco") return std::make_unique<AntColony>(config.aco, random);
+  if (name == "fa") return over_via_points(std::make_unique<Fireflies>(config.fa));
+  if (name == "pso") return over_via_points(std::make_unique<ParticleSwarm>(config.pso));
+  if (name == "wpa") return over_via_points(std::make_unique<WolfPack>(config.wpa));
+  if (name == "tabu") return std::make_unique<Tabu>(config.tabu, random);
   return nullptr;
 }
 

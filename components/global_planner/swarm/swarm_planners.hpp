@@ -1,9 +1,9 @@
 #pragma once
 #include <array>
-#include <cstdint>
 #include <memory>
 #include <string_view>
 
+#include "core/random.hpp"
 #include "global_planner/swarm/ant_colony.hpp"
 #include "global_planner/swarm/casma.hpp"
 #include "global_planner/swarm/fireflies.hpp"
@@ -19,7 +19,6 @@ inline constexpr std::array<std::string_view, 6> kSwarmPlanners{"casma", "aco", 
                                                                 "pso",   "wpa", "tabu"};
 
 struct SwarmConfig {
-  std::int64_t seed = 1;  ///< of all draws
   CasmaConfig casma;
   AntColonyConfig aco;
   FirefliesConfig fa;
@@ -31,8 +30,9 @@ struct SwarmConfig {
   void describe(config::Fields& fields);
 };
 
-/// One of kSwarmPlanners; nothing for another name.
+/// One of kSwarmPlanners; nothing for another name. `random`: of all its draws.
 [[nodiscard]] std::unique_ptr<GridPlanner> make_swarm_planner(std::string_view name,
-                                                              const SwarmConfig& config);
+                                                              const SwarmConfig& config,
+                                                              const RandomStream& random);
 
 }  // namespace coop::global_planner::swarm

@@ -13,7 +13,7 @@ void BM_DrivablePlan(benchmark::State& state) {
   const test::ExperimentRobot robot;
   const test::TaskSource tasks(house, robot);
   const PathPlannerConfig config;
-  PathPlanner planner(config, robot.footprint, 0.80);
+  PathPlanner planner(config, robot.footprint, 0.80, RandomStream(1, "planner"));
   PlanningMap map({}, Footprint(robot.footprint), config.poses.padding, planner.reach(0.05));
   map.set_map(house);
   map.update(Time{});

@@ -14,20 +14,18 @@ namespace {
 
 using namespace global_planner::swarm;
 
-/// One of the family as it stands in a configuration.
+/// One of the family as it stands in a configuration. `stream`: name of its random stream.
 Contender swarm_planner(std::string name, std::string paper_name, const std::string& key,
-                        const SwarmConfig& config = {}) {
-  return {std::move(name), std::move(paper_name), [key, config](std::uint64_t seed) {
-            SwarmConfig seeded = config;
-            seeded.seed = static_cast<std::int64_t>(seed);
-            return make_swarm_planner(key, seeded);
+                        const std::string& stream, const SwarmConfig& config = {}) {
+  return {std::move(name), std::move(paper_name), [key, stream, config](std::uint64_t seed) {
+            return make_swarm_planner(key, config, RandomStream(seed, stream));
           }};
 }
 
 Contender casma_by(const std::string& method) {
   SwarmConfig config;
   config.casma.method = method;
-  return swarm_planner("CASMA " + method, "CASMA", "casma", config);
+  return swarm_planner("CASMA " + method, "CASMA", "casma", "casma", config);
 }
 
 Contender casma_over_via_points() {
@@ -60,11 +58,11 @@ std::vector<Contender> contenders() {
        [](std::uint64_t seed) { return std::make_unique<Turned>(casma_by("paper").make(seed)); }},
       casma_by("printed"),
       casma_over_via_points(),
-      swarm_planner("ACO", "ACO", "aco"),
-      swarm_planner("FA", "FA", "fa"),
-      swarm_planner("PSO", "PSO", "pso"),
-      swarm_planner("WPA", "WPA", "wpa"),
-      swarm_planner("TS", "TS", "tabu"),
+      swarm_planner("ACO", "ACO", "aco", "aco"),
+      swarm_planner("FA", "FA", "fa", "FA"),
+      swarm_planner("PSO", "PSO", "pso", "PSO"),
+      swarm_planner("WPA", "WPA", "wpa", "WPA"),
+      swarm_planner("TS", "TS", "tabu", "tabu"),
       exact("A*", StepSearch::Guidance::kManhattan),
       exact("Dijkstra", StepSearch::Guidance::kNone),
       {"coin", "", [](std::uint64_t seed) {
@@ -74,7 +72,8 @@ std::vector<Contender> contenders() {
 
 std::vector<Contender> moving_contenders() {
   return {casma_by("best"), casma_by("paper"), exact("A*", StepSearch::Guidance::kManhattan),
-          swarm_planner("TS", "TS", "tabu"), exact("Dijkstra", StepSearch::Guidance::kNone)};
+          swarm_planner("TS", "TS", "tabu", "tabu"),
+          exact("Dijkstra", StepSearch::Guidance::kNone)};
 }
 
 std::vector<Searcher> searchers() {

@@ -62,7 +62,8 @@ class Loop {
         rays_(true_house_),
         random_(seed, "closed_loop"),
         drive_({}, geometry_),
-        planner_(config.planner, robot_.footprint, geometry_.min_turning_radius()),
+        planner_(config.planner, robot_.footprint, geometry_.min_turning_radius(),
+                 RandomStream(seed, "planner")),
         dwa_(config.dwa, robot_.footprint, geometry_, kSteeringRate),
         robot_now_(task.start) {
     planner_.map().set_map(house);

@@ -61,7 +61,7 @@ class GlobalPlannerTest : public testing::Test {
     planner_.map().integrate(scan, {robot, robot, {}});
   }
 
-  GlobalPlanner planner_{{}, kRobotFootprint, kTurningRadius};
+  GlobalPlanner planner_{{}, kRobotFootprint, kTurningRadius, RandomStream(1, "planner")};
   Time now_ = time_from_seconds(100.0);
   int plans_ = 0;
 };
@@ -98,7 +98,7 @@ TEST_F(GlobalPlannerTest, GoesOnWhenThePoseComesInTime) {
 }
 
 TEST_F(GlobalPlannerTest, SaysThatThereIsNoMap) {
-  GlobalPlanner blind({}, kRobotFootprint, kTurningRadius);
+  GlobalPlanner blind({}, kRobotFootprint, kTurningRadius, RandomStream(1, "planner"));
   blind.set_goal({"1", kGoal}, now_);
   blind.update(kStart, now_);
   EXPECT_EQ(blind.status().reason, PlannerReason::kNoMap);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/config/error.hpp"
 #include "global_planner/planning_map.hpp"
 #include "unit/global_planner/drawn_map.hpp"
 
@@ -29,7 +30,7 @@ class PathPlannerTest : public testing::Test {
   }
 
   PathPlannerConfig config_;
-  PathPlanner planner_{config_, kRobotFootprint, kTurningRadius};
+  PathPlanner planner_{config_, kRobotFootprint, kTurningRadius, RandomStream(1, "planner")};
   PlanningMap map_{{}, Footprint(kRobotFootprint), config_.poses.padding, planner_.reach(0.05)};
 };
 
@@ -230,21 +231,55 @@ TEST_F(PathPlannerTest, ChangingTheDirectionOfTravelAtOnceCostsACusp) {
   EXPECT_NEAR(backwards->cost - at_rest->cost, config_.drivable_search.arc_cost.cusp_cost, 1e-4);
 }
 
-TEST(PathPlanner, FollowsDijkstrasPathTurnedAlongItInThePapersMode) {
+class GridPathPlanner : public ::testing::TestWithParam<std::string_view> {};
+
+TEST_P(GridPathPlanner, TurnsEveryPoseAlongThePathAndEndsWithTheGoalsHeading) {
   PathPlannerConfig config;
-  config.drivable = false;
-  PathPlanner planner(config, kRobotFootprint, kTurningRadius);
+  config.planner = GetParam();
+  if (config.planner == kJumpPoint) config.traversal.restricted_weight = 0.0;
+  PathPlanner planner(config, kRobotFootprint, kTurningRadius, RandomStream(1, "planner"));
   PlanningMap map({}, Footprint(kRobotFootprint), config.poses.padding, planner.reach(0.05));
   map.set_map(draw_room());
   map.update(Time{});
-  const auto result = planner.plan(map.costmap(), {1.5, 1.5, 0.0}, {4.0, 3.5, 1.0}, 0);
-  ASSERT_TRUE(result);
-  EXPECT_EQ(result->poses.back(), (Pose2{4.0, 3.5, 1.0}));
+  const Pose2 start{1.5, 1.5, 0.0};
+  const Pose2 goal{4.0, 3.5, 1.0};
+  const auto result = planner.plan(map.costmap(), start, goal, 0);
+  ASSERT_TRUE(result) << result.error().detail;
+  EXPECT_EQ(result->poses.back(), goal);
+  EXPECT_GE(result->length, distance(start, goal));
   for (std::size_t i = 1; i + 1 < result->poses.size(); ++i) {
     const Pose2 step = result->poses[i - 1].inverse() * result->poses[i];
-    // Smoothing leaves bends of the grid's 45 degrees spread over several poses.
-    EXPECT_NEAR(std::atan2(step.y, step.x), 0.0, 0.2) << "pose " << i;
+    // Smoothing leaves bends of the grid's 45 or 90 degrees spread over several poses.
+    EXPECT_NEAR(std::atan2(step.y, step.x), 0.0, 0.6) << "pose " << i;
+    EXPECT_LT(zone_of(map.costmap().cost_at(
+                  map.costmap().geometry().cell_of(result->poses[i].position()))),
+              Zone::kLethalZone);
   }
+}
+
+TEST_P(GridPathPlanner, SaysWhyThereIsNoPath) {
+  PathPlannerConfig config;
+  config.planner = GetParam();
+  if (config.planner == kJumpPoint) config.traversal.restricted_weight = 0.0;
+  PathPlanner planner(config, kRobotFootprint, kTurningRadius, RandomStream(1, "planner"));
+  PlanningMap map({}, Footprint(kRobotFootprint), config.poses.padding, planner.reach(0.05));
+  map.set_map(draw_room());
+  map.update(Time{});
+  const auto outside = planner.plan(map.costmap(), {1.5, 1.5, 0.0}, {400.0, 3.5, 1.0}, 0);
+  ASSERT_FALSE(outside);
+  EXPECT_EQ(outside.error().reason, PlanFailureReason::kGoalOutside);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryPlanner, GridPathPlanner,
+                         ::testing::ValuesIn(std::vector(kPlanners.begin() + 1, kPlanners.end())),
+                         [](const auto& parameter) { return std::string(parameter.param); });
+
+TEST(PathPlannerConfig, JumpPointIsRefusedWhereCellsHavePrices) {
+  PathPlannerConfig config;
+  config.planner = kJumpPoint;
+  EXPECT_THROW(config.validate(), config::Error);
+  config.traversal.restricted_weight = 0.0;
+  EXPECT_NO_THROW(config.validate());
 }
 
 }  // namespace
