@@ -137,6 +137,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: sequencing_experiment [seeds]\n");
     return 2;
   }
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // each row as it comes, into a file too
   coop::experiments::run(seeds);
   return 0;
 }

@@ -67,6 +67,16 @@ INSTANTIATE_TEST_SUITE_P(Forms, MaxMinAntsTest,
                                   (test_case.param.closed ? "Closed" : "Open");
                          });
 
+TEST(MaxMinAntsTest, AnOpenTourIsAsLongInEitherForm) {
+  const CostMatrix costs = test::random_places(40, 2);
+  CostMatrix free_return = costs;  // asymmetric: entry and exit a place
+  for (std::size_t i = 1; i < costs.size; ++i) free_return.at(i, 0) = 0.0;
+  RandomStream a(1, "ants");
+  RandomStream b(2, "ants");
+  EXPECT_NEAR(solve_by_max_min_ants(costs, false, {}, a).cost,
+              solve_by_max_min_ants(free_return, true, {}, b).cost, 1e-9);
+}
+
 TEST(MaxMinAntsTest, NoEggsNeedNoTour) {
   RandomStream random(1, "ants");
   EXPECT_TRUE(solve_by_max_min_ants(CostMatrix(1), false, few(), random).order.empty());

@@ -246,6 +246,22 @@ TEST_F(MissionOrdersTest, AnAnswerThatComesLateCountsAllTheSame) {
   step_until_phase(MissionPhase::kDone);
 }
 
+TEST_F(MissionOrdersTest, SidesRefusedBeforeAPauseDoNotCountForTheDriveAfterIt) {
+  begin(1);
+  mission_.start(MissionKind::kCollect, "m", {});
+  add_egg("egg1", 3, 0);
+  step_until_phase(MissionPhase::kDriving);
+  step();
+  refuse("chance");
+  step();
+  mission_.pause();
+  step();
+  mission_.resume();
+  step_until_phase(MissionPhase::kDriving);
+  step();
+  EXPECT_EQ(egg().attempts, 2) << "else its pick would have the id of an earlier one";
+}
+
 TEST_F(MissionOrdersTest, ALongPauseIsNotTheArmsFault) {
   begin(1);
   mission_.start(MissionKind::kCollect, "m", {});

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/random.hpp"
+#include "sequencer/tour_problem.hpp"
+
 namespace coop::sequencer {
 namespace {
 
@@ -36,6 +39,26 @@ TEST_F(PathCostsTest, AroundTheWallIsFartherThanThroughIt) {
 TEST_F(PathCostsTest, AnEggInItsOwnObstacleCellCanBeDrivenTo) {
   const CostMatrix matrix = costs_.matrix({7.05, 1.05, 0}, {{8.05, 1.05}});
   EXPECT_NEAR(matrix.at(0, 1), 0.9, 0.15);
+}
+
+TEST_F(PathCostsTest, ThereAndBackCostTheSameButForRounding) {
+  for (int x = 10; x < 40; ++x) {
+    for (int y = 5; y < 55; ++y) map_[{x, y}] = static_cast<std::int8_t>((x * 7 + y * 13) % 98);
+  }
+  costs_.set_costmap(map_);
+  RandomStream random(1, "eggs");
+  std::vector<Eigen::Vector2d> eggs;
+  for (int i = 0; i < 30; ++i) {
+    eggs.emplace_back(random.uniform(0.5, 9.5), random.uniform(0.5, 5.5));
+  }
+  const CostMatrix matrix = costs_.matrix({7.05, 1.05, 0}, eggs);
+  EXPECT_TRUE(is_symmetric(matrix));
+}
+
+TEST_F(PathCostsTest, APlaceThatIsNoPlaceHasNoWay) {
+  const CostMatrix matrix = costs_.matrix({7.05, 1.05, 0}, {{std::nan(""), 1}, {8, 2}});
+  EXPECT_FALSE(std::isfinite(matrix.at(0, 1)));
+  EXPECT_TRUE(std::isfinite(matrix.at(0, 2)));
 }
 
 TEST_F(PathCostsTest, WhereTheFootprintDoesNotFitThereIsNoCost) {
