@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 namespace coop {
 
 namespace {
 
 constexpr int kBlock = 16;        // cells measured together
+constexpr int kBlocksPay = 48;    // the largest cap for which whole rows are faster in blocks
 constexpr int kRoundsAtOnce = 4;  // distances tried between two looks at what is left to gain
 
 constexpr int kFarthest = (DistanceTransform::kSmallCap + kRoundsAtOnce - 1) / kRoundsAtOnce *
@@ -21,22 +23,42 @@ std::uint16_t one_more(std::uint16_t neighbour, std::uint16_t cap) {
   return static_cast<std::uint16_t>(neighbour < cap ? neighbour + 1 : cap);
 }
 
+/// Eight values side by side: the compiler's own vectors, on every processor. It does not find the
+/// 16-bit minimum in plain loops, which makes them five times as long (bench core_costmap).
+using Eight = std::int16_t __attribute__((vector_size(16)));
+
+Eight load(const std::int16_t* from) {
+  Eight values;
+  std::memcpy(&values, from, sizeof values);
+  return values;
+}
+
+Eight lesser(Eight a, Eight b) {
+  return a < b ? a : b;
+}
+
+std::int16_t largest_of(Eight a, Eight b) {
+  const Eight larger = a > b ? a : b;
+  std::int16_t largest = larger[0];
+  for (std::size_t i = 1; i < 8; ++i) largest = std::max(largest, larger[i]);
+  return largest;
+}
+
 /// One block of a row under a small cap: the least of d * d + squares[i +- d].
 void measure_block(const std::int16_t* squares, std::int16_t* best) {
-  std::copy_n(squares, kBlock, best);
-  std::int16_t largest = *std::max_element(best, best + kBlock);
+  Eight low = load(squares);
+  Eight high = load(squares + 8);
+  std::int16_t largest = largest_of(low, high);
   for (int d = 1; d * d < largest;) {
     for (const int until = d + kRoundsAtOnce; d < until; ++d) {
-      const auto along = static_cast<std::int16_t>(d * d);
-      const std::int16_t* left = squares - d;
-      const std::int16_t* right = squares + d;
-      for (int i = 0; i < kBlock; ++i) {
-        const std::int16_t nearer = std::min(left[i], right[i]);
-        best[i] = std::min(best[i], static_cast<std::int16_t>(nearer + along));
-      }
+      const Eight along = static_cast<std::int16_t>(d * d) - Eight{};
+      low = lesser(low, lesser(load(squares - d), load(squares + d)) + along);
+      high = lesser(high, lesser(load(squares + 8 - d), load(squares + 8 + d)) + along);
     }
-    largest = *std::max_element(best, best + kBlock);
+    largest = largest_of(low, high);
   }
+  std::memcpy(best, &low, sizeof low);
+  std::memcpy(best + 8, &high, sizeof high);
 }
 
 }  // namespace
@@ -49,14 +71,15 @@ void DistanceTransform::run(std::span<const std::uint8_t> sources, int width, in
   cap_ = std::clamp(cap, 1, kNoCap);
   column_distance_.resize(w * static_cast<std::size_t>(height));
   measure_columns(sources);
-  if (cap_ > kSmallCap) {
+  const bool in_blocks = cap_ <= kBlocksPay;
+  if (!in_blocks) {
     envelope_.resize(w);
     for (std::size_t d = half_inverse_.size(); d <= w; ++d) {
       half_inverse_.push_back(d == 0 ? 0.0 : 0.5 / static_cast<double>(d));
     }
   }
   for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
-    if (cap_ > kSmallCap) {
+    if (!in_blocks) {
       measure_row(&column_distance_[y * w], &squared_cells[y * w]);
     } else if (width > 0) {
       measure_run(&column_distance_[y * w], &squared_cells[y * w], 0, width);

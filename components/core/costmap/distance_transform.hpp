@@ -24,8 +24,8 @@ struct CellRun {
 /// Exact Euclidean distance transform: for each cell the squared distance, in cells, from its
 /// centre to the centre of the nearest source cell. Linear in the number of cells: distances along
 /// columns, then the lower envelope of one parabola a column along each row (Felzenszwalb and
-/// Huttenlocher 2012; Meijster, Roerdink and Hesselink 2000). Under a cap of at most kSmallCap the
-/// rows are done by looking left and right as far as a nearer source may lie, 16 cells at a time.
+/// Huttenlocher 2012; Meijster, Roerdink and Hesselink 2000). Under a small cap the rows are
+/// done by looking left and right as far as a nearer source may lie, 16 cells at a time.
 ///
 /// The object keeps its work space: repeated runs on grids that are no larger do not allocate.
 class DistanceTransform {
