@@ -21,25 +21,20 @@ Result<GridPath, SearchFailure> JumpPoint::plan(const TraversalGrid& grid, Cell 
   if (!search({start.x + 1, start.y + 1}, {goal.x + 1, goal.y + 1})) {
     return fail(SearchFailure::kNoPath);
   }
-  return path(grid, start, goal);
+  return path(grid, goal);
 }
 
 bool JumpPoint::prepare(const TraversalGrid& grid) {
+  for (const Node& node : nodes_) number_[node.cell] = 0;
+  nodes_.clear();
+  open_.clear();
+  expansions_ = 0;
   if (revision_ != grid.revision()) {
     revision_ = grid.revision();
     stride_ = grid.stride();
     costs_differ_ = !bits_.update(grid);
-    if (nodes_.size() != grid.padded_size()) {
-      nodes_.assign(grid.padded_size(), Node{});
-      query_ = 0;
-    }
+    number_.assign(grid.padded_size(), 0);
   }
-  if (++query_ == 0) {  // the counter ran over: old marks would look new
-    nodes_.assign(nodes_.size(), Node{});
-    query_ = 1;
-  }
-  open_.clear();
-  expansions_ = 0;
   return !costs_differ_;
 }
 
@@ -52,8 +47,9 @@ double JumpPoint::estimate(Cell at) const {
 bool JumpPoint::search(Cell start, Cell goal) {
   goal_ = goal;
   goal_index_ = index_of(goal);
-  const Origin origin{start, index_of(start), 0.0};
-  nodes_[origin.index] = {.parent = origin.index, .query = query_, .closed = true};
+  const Origin origin{start, 0, 0.0};
+  nodes_.push_back({0.0, index_of(start), 0, 0, 0, true});
+  number_[index_of(start)] = 1;
   if (start == goal) return true;
   expand_all(origin);
   // Cheapest estimate first; of equal ones the one farther along.
@@ -65,13 +61,13 @@ bool JumpPoint::search(Cell start, Cell goal) {
     std::pop_heap(open_.begin(), open_.end(), later);
     const Entry entry = open_.back();
     open_.pop_back();
-    Node& node = nodes_[entry.index];
-    if (node.closed) continue;
-    node.closed = true;
-    if (entry.index == goal_index_) return true;
-    const auto index = static_cast<int>(entry.index);
+    if (nodes_[entry.node].closed) continue;
+    nodes_[entry.node].closed = true;
+    const Node node = nodes_[entry.node];  // the array may grow
+    if (node.cell == goal_index_) return true;
+    const auto cell = static_cast<int>(node.cell);
     const std::size_t before = open_.size();
-    expand({{index % stride_, index / stride_}, entry.index, node.cost}, node.dx, node.dy);
+    expand({{cell % stride_, cell / stride_}, entry.node, node.cost}, node.dx, node.dy);
     for (std::size_t end = before + 1; end <= open_.size(); ++end) {
       std::push_heap(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(end), later);
     }
@@ -135,23 +131,27 @@ void JumpPoint::jump_diagonal(const Origin& from, int dx, int dy) {
 }
 
 void JumpPoint::reach(const Origin& from, Cell at, double cost, int dx, int dy) {
-  const std::uint32_t index = index_of(at);
-  Node& node = nodes_[index];
-  if (node.query == query_ && (node.closed || node.cost <= cost)) return;
-  node = {cost, from.index, query_, static_cast<std::int8_t>(dx), static_cast<std::int8_t>(dy),
-          false};
-  open_.push_back({cost + estimate(at), cost, index});
+  const std::uint32_t cell = index_of(at);
+  std::uint32_t& number = number_[cell];
+  if (number == 0) {
+    nodes_.emplace_back();
+    number = static_cast<std::uint32_t>(nodes_.size());
+  } else if (nodes_[number - 1].closed || nodes_[number - 1].cost <= cost) {
+    return;
+  }
+  nodes_[number - 1] = {
+      cost, cell, from.node, static_cast<std::int8_t>(dx), static_cast<std::int8_t>(dy), false};
+  open_.push_back({cost + estimate(at), cost, number - 1});
 }
 
 /// Between two points of the search the path runs diagonally first, then straight.
-GridPath JumpPoint::path(const TraversalGrid& grid, Cell start, Cell goal) const {
+GridPath JumpPoint::path(const TraversalGrid& grid, Cell goal) const {
   GridPath path;
   path.cells.push_back(goal);
-  std::uint32_t index = grid.padded_index(goal);
-  const std::uint32_t first = grid.padded_index(start);
-  while (index != first) {
-    const std::uint32_t parent = nodes_[index].parent;
-    const Cell to = grid.cell_at(parent);
+  std::uint32_t node = number_[grid.padded_index(goal)] - 1;
+  while (node != 0) {  // the start's
+    node = nodes_[node].parent;
+    const Cell to = grid.cell_at(nodes_[node].cell);
     Cell here = path.cells.back();
     const int straight = std::abs(std::abs(here.x - to.x) - std::abs(here.y - to.y));
     const bool along_row = std::abs(here.x - to.x) > std::abs(here.y - to.y);
@@ -161,7 +161,6 @@ GridPath JumpPoint::path(const TraversalGrid& grid, Cell start, Cell goal) const
       here.y += !along_row || diagonal ? sign(to.y - here.y) : 0;
       path.cells.push_back(here);
     }
-    index = parent;
   }
   std::reverse(path.cells.begin(), path.cells.end());
   path.cost = cost_of(grid, path.cells);

@@ -28,20 +28,20 @@ class JumpPoint final : public GridPlanner {
  private:
   /// Cells here are those of the padded grid.
   struct Node {
-    double cost = 0.0;           ///< from the start, cells
-    std::uint32_t parent = 0;    ///< padded index
-    std::uint32_t query = 0;     ///< the query this belongs to: no other is valid
-    std::int8_t dx = 0, dy = 0;  ///< the straight step it was reached by; 0, 0: start or goal
-    bool closed = false;
+    double cost;           ///< from the start, cells
+    std::uint32_t cell;    ///< padded index
+    std::uint32_t parent;  ///< number of the node it was reached from
+    std::int8_t dx, dy;    ///< the straight step it was reached by; 0, 0: start or goal
+    bool closed;
   };
   struct Entry {
     double estimate;  ///< cost + estimate to the goal
     double cost;
-    std::uint32_t index;
+    std::uint32_t node;
   };
   struct Origin {
     Cell at;
-    std::uint32_t index;
+    std::uint32_t node;
     double cost;
   };
 
@@ -58,15 +58,15 @@ class JumpPoint final : public GridPlanner {
   [[nodiscard]] std::uint32_t index_of(Cell at) const {
     return static_cast<std::uint32_t>(at.y * stride_ + at.x);
   }
-  [[nodiscard]] GridPath path(const TraversalGrid& grid, Cell start, Cell goal) const;
+  [[nodiscard]] GridPath path(const TraversalGrid& grid, Cell goal) const;
 
   search::PassableBits bits_;
   std::uint64_t revision_ = 0;
   bool costs_differ_ = false;
   int stride_ = 0;
-  std::vector<Node> nodes_;
-  std::vector<Entry> open_;  ///< binary heap
-  std::uint32_t query_ = 0;
+  std::vector<Node> nodes_;            ///< reached in this query; they stay in the nearest cache
+  std::vector<std::uint32_t> number_;  ///< by padded index: its node's number + 1, 0: none
+  std::vector<Entry> open_;            ///< binary heap
   Cell goal_;
   std::uint32_t goal_index_ = 0;
   std::size_t expansions_ = 0;
