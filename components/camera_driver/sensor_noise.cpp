@@ -111,11 +111,22 @@ void SensorNoise::apply(const std::vector<float>& exact_depth, Frame& frame) con
       const bool seen = z > 0.0F && !is_lost && measured >= nearest && measured <= farthest;
       depth[i] = seen ? static_cast<std::uint16_t>(measured * 1000.0F + 0.5F) : std::uint16_t{0};
     }
-    std::uint8_t* const colour = frame.colour.ptr(row);
-    for (std::size_t i = 0; i < 3 * columns; ++i) {
-      colour[i] = static_cast<std::uint8_t>(
-          std::clamp(colour[i] + colour_[(colour_start + i) % kTable], 0, 255));
-    }
+    add_to_colour(frame.colour.ptr(row), frame.colour.cols, colour_start);
+  }
+}
+
+void SensorNoise::apply_to_colour(Frame& frame) const {
+  RandomStream random(seed_of_frame(seed_, frame.stamp), "camera/frame");
+  for (int row = 0; row < frame.colour.rows; ++row) {
+    add_to_colour(frame.colour.ptr(row), frame.colour.cols,
+                  static_cast<std::size_t>(random.below(kTable)));
+  }
+}
+
+void SensorNoise::add_to_colour(std::uint8_t* row, int columns, std::size_t start) const {
+  const std::size_t values = 3 * static_cast<std::size_t>(columns);
+  for (std::size_t i = 0; i < values; ++i) {
+    row[i] = static_cast<std::uint8_t>(std::clamp(row[i] + colour_[(start + i) % kTable], 0, 255));
   }
 }
 

@@ -27,8 +27,12 @@ class SensorNoise {
 
   /// Adds noise to frame.colour, and writes frame.depth from the exact depth (m, 0: nothing).
   void apply(const std::vector<float>& exact_depth, Frame& frame) const;
+  /// The same without depth.
+  void apply_to_colour(Frame& frame) const;
 
  private:
+  void add_to_colour(std::uint8_t* row, int columns, std::size_t start) const;
+
   SensorNoiseConfig config_;
   double range_min_;
   double range_max_;

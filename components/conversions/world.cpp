@@ -62,6 +62,35 @@ Result<std::vector<world::Animal>> from_msgs(
   return animals;
 }
 
+std::vector<coop_msgs::msg::SimHeap> to_msgs(const std::vector<world::Heap>& heaps) {
+  std::vector<coop_msgs::msg::SimHeap> messages(heaps.size());
+  for (std::size_t i = 0; i < heaps.size(); ++i) {
+    messages[i].id(heaps[i].id);
+    messages[i].position(to_point_msg({heaps[i].position.x(), heaps[i].position.y(), 0.0}));
+    messages[i].radius(heaps[i].radius);
+    messages[i].state(static_cast<std::uint8_t>(heaps[i].state));
+  }
+  return messages;
+}
+
+Result<std::vector<world::Heap>> from_msgs(const std::vector<coop_msgs::msg::SimHeap>& messages) {
+  std::vector<world::Heap> heaps;
+  heaps.reserve(messages.size());
+  for (const auto& message : messages) {
+    const auto position = from_msg(message.position());
+    if (!position) return fail("heap " + message.id() + ": " + position.error());
+    if (!(std::isfinite(message.radius()) && message.radius() >= 0.0)) {
+      return fail("heap " + message.id() + ": radius is not a length");
+    }
+    if (message.state() > static_cast<std::uint8_t>(world::HeapState::kCleaned)) {
+      return fail("heap " + message.id() + ": unknown state");
+    }
+    heaps.push_back({message.id(), position->head<2>(), message.radius(),
+                     static_cast<world::HeapState>(message.state())});
+  }
+  return heaps;
+}
+
 }  // namespace
 
 coop_msgs::msg::World to_msg(const world::World& world, Time stamp) {
@@ -72,6 +101,7 @@ coop_msgs::msg::World to_msg(const world::World& world, Time stamp) {
   message.eggs(to_msgs(world.eggs));
   message.robot_start(to_msg(world.robot_start));
   message.seed(world.seed);
+  message.heaps(to_msgs(world.heaps));
   return message;
 }
 
@@ -82,8 +112,10 @@ Result<world::World> from_msg(const coop_msgs::msg::World& message) {
   if (!eggs) return fail(std::move(eggs.error()));
   const auto start = pose2_from_msg(message.robot_start());
   if (!start) return fail("start of the robot: " + start.error());
+  auto heaps = from_msgs(message.heaps());
+  if (!heaps) return fail(std::move(heaps.error()));
   return world::World{message.map_path(), std::move(grid->value), std::move(*eggs), *start,
-                      message.seed()};
+                      message.seed(),     std::move(*heaps)};
 }
 
 coop_msgs::msg::GroundTruth to_msg(const world::GroundTruth& truth) {
@@ -94,8 +126,10 @@ coop_msgs::msg::GroundTruth to_msg(const world::GroundTruth& truth) {
   message.steering_angle(truth.steering_angle);
   message.in_collision(truth.in_collision);
   message.collision_count(truth.collision_count);
+  message.animal_collision_count(truth.animal_collision_count);
   message.eggs(to_msgs(truth.eggs));
   message.animals(to_msgs(truth.animals));
+  message.heaps(to_msgs(truth.heaps));
   return message;
 }
 
@@ -111,14 +145,18 @@ Result<world::GroundTruth> from_msg(const coop_msgs::msg::GroundTruth& message) 
   if (!eggs) return fail(std::move(eggs.error()));
   auto animals = from_msgs(message.animals());
   if (!animals) return fail(std::move(animals.error()));
+  auto heaps = from_msgs(message.heaps());
+  if (!heaps) return fail(std::move(heaps.error()));
   return world::GroundTruth{.stamp = *stamp,
                             .robot_in_world = *robot,
                             .velocity = *velocity,
                             .steering_angle = message.steering_angle(),
                             .in_collision = message.in_collision(),
                             .collision_count = message.collision_count(),
+                            .animal_collision_count = message.animal_collision_count(),
                             .eggs = std::move(*eggs),
-                            .animals = std::move(*animals)};
+                            .animals = std::move(*animals),
+                            .heaps = std::move(*heaps)};
 }
 
 }  // namespace coop::conversions

@@ -50,4 +50,10 @@ bool is_success(const Record& record) {
          count_eggs(record, "picked") == record.eggs_in_world;
 }
 
+bool is_clean(const Record& record) {
+  return record.mission_state == "done" && record.collisions == 0 &&
+         record.eggs_collected == record.eggs_in_world &&
+         count_eggs(record, "picked") == static_cast<int>(record.eggs.size());
+}
+
 }  // namespace coop::demo

@@ -25,4 +25,7 @@ struct Figures {
 /// Five of five picked, counted by mission and simulator alike, and no collision.
 [[nodiscard]] bool is_success(const Record& record);
 
+/// A pen without manure, by mission and simulator alike, and no collision.
+[[nodiscard]] bool is_clean(const Record& record);
+
 }  // namespace coop::demo

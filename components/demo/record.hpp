@@ -1,15 +1,17 @@
 #pragma once
 #include <cstdint>
+#include <opencv2/core/mat.hpp>
 #include <string>
 #include <vector>
 
 #include "core/grid.hpp"
 #include "core/pose.hpp"
 #include "core/time.hpp"
+#include "core/world/state.hpp"
 
 namespace coop::demo {
 
-/// What became of one egg, as the mission tells it.
+/// What became of one target, an egg or a heap of manure, as the mission tells it.
 struct EggRecord {
   std::string id;
   Eigen::Vector2d egg_in_map{0, 0};
@@ -36,10 +38,16 @@ struct Record {
   std::vector<std::string> order;  ///< ids in the order the colony chose
   double tour_cost = 0.0;          ///< m, as ordered
   std::uint32_t collisions = 0;
-  int eggs_in_world = 0;
-  int eggs_collected = 0;  ///< by the simulator's count
+  std::uint32_t animal_collisions = 0;  ///< of these, with an animal
+  int eggs_in_world = 0;                ///< or heaps
+  int eggs_collected = 0;               ///< or heaps cleaned, by the simulator's count
+  std::vector<world::Heap> heaps;       ///< as they lie at last, in map
+  std::vector<std::vector<Eigen::Vector2d>> animal_tracks;  ///< in map
+  std::vector<double> animal_radii;                         ///< m, of the same
   std::string mission_state;
   std::string mission_detail;
+  cv::Mat first_view;  ///< pictures of the camera, blue, green, red; where it was asked for them
+  cv::Mat last_view;
 };
 
 }  // namespace coop::demo

@@ -2,120 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-#include <numbers>
-#include <opencv2/imgcodecs.hpp>
-
 #include "core/atomic_file.hpp"
 #include "core/markup.hpp"
 #include "demo/figures.hpp"
 #include "demo/picture.hpp"
+#include "demo/report_parts.hpp"
 
 namespace coop::demo {
-namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-std::string base64(const std::string& bytes) {
-  static constexpr std::string_view kAlphabet =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    for (std::size_t j = 0; j < 3; ++j) {
-      group = (group << 8U) | (j < count ? static_cast<unsigned char>(bytes[i + j]) : 0U);
-    }
-    for (std::size_t j = 0; j < 4; ++j) {
-      out += j <= count ? kAlphabet[(group >> (18U - 6U * j)) & 63U] : '=';
-    }
-  }
-  return out;
-}
-
-std::string to_png(const cv::Mat& image) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", image, bytes);
-  return {bytes.begin(), bytes.end()};
-}
-
-std::string row(const std::string& name, const std::string& value) {
-  return "<tr><th>" + name + "</th><td>" + value + "</td></tr>\n";
-}
-
-std::string figures_table(const Record& record) {
-  const Figures f = compute_figures(record);
-  return "<table>\n" +
-         row("mission", escape_markup(record.mission_state + " " + record.mission_detail)) +
-         row("time", fmt::format("{:.1f} s", f.duration)) +
-         row("distance driven", fmt::format("{:.1f} m", f.distance_driven)) +
-         row("mean speed", fmt::format("{:.2f} m/s", f.mean_speed)) +
-         row("error of position, mean / 95 % / max",
-             fmt::format("{:.3f} / {:.3f} / {:.3f} m", f.position_error.mean, f.position_error.p95,
-                         f.position_error.max)) +
-         row("error of heading, mean / 95 % / max",
-             fmt::format("{:.2f} / {:.2f} / {:.2f} deg", kDegrees * f.heading_error.mean,
-                         kDegrees * f.heading_error.p95, kDegrees * f.heading_error.max)) +
-         row("collisions", std::to_string(record.collisions)) + "</table>\n";
-}
-
-std::string egg_table(const Record& record) {
-  std::string out =
-      "<table>\n<tr><th>order</th><th>egg</th><th>x, y in map</th><th>result</th>"
-      "<th>attempts</th><th>reason</th></tr>\n";
-  for (const EggRecord& egg : record.eggs) {
-    const auto place = std::ranges::find(record.order, egg.id);
-    out += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{:.2f}, {:.2f} m</td><td class=\"{}\">{}</td>"
-        "<td>{}</td><td>{}</td></tr>\n",
-        place == record.order.end() ? std::string("-")
-                                    : std::to_string(place - record.order.begin() + 1),
-        escape_markup(egg.id), egg.egg_in_map.x(), egg.egg_in_map.y(),
-        egg.state == "picked" ? "good" : "bad", escape_markup(egg.state), egg.attempts,
-        escape_markup(egg.reason));
-  }
-  return out + "</table>\n";
-}
-
-nlohmann::ordered_json to_json(const Record& record) {
-  const Figures f = compute_figures(record);
-  nlohmann::ordered_json eggs = nlohmann::ordered_json::array();
-  for (const EggRecord& egg : record.eggs) {
-    eggs.push_back({{"id", egg.id},
-                    {"x", egg.egg_in_map.x()},
-                    {"y", egg.egg_in_map.y()},
-                    {"state", egg.state},
-                    {"attempts", egg.attempts},
-                    {"reason", egg.reason}});
-  }
-  const auto errors = [](const ErrorFigures& e) {
-    return nlohmann::ordered_json{{"mean", e.mean}, {"p95", e.p95}, {"max", e.max}};
-  };
-  return {{"mission", record.mission_state},
-          {"detail", record.mission_detail},
-          {"duration_s", f.duration},
-          {"distance_m", f.distance_driven},
-          {"position_error_m", errors(f.position_error)},
-          {"heading_error_rad", errors(f.heading_error)},
-          {"collisions", record.collisions},
-          {"eggs_in_world", record.eggs_in_world},
-          {"eggs_collected", record.eggs_collected},
-          {"order", record.order},
-          {"tour_cost_m", record.tour_cost},
-          {"eggs", eggs}};
-}
-
-}  // namespace
 
 std::string render_html(const Record& survey, const Record& collection, const Summary& summary,
                         const std::string& run_png, const std::string& map_png) {
   const Figures f = compute_figures(collection);
   const bool good = is_success(collection);
-  const auto image = [](const std::string& png, const char* alt) {
-    return "<img alt=\"" + std::string(alt) + "\" src=\"data:image/png;base64," + base64(png) +
-           "\">\n";
-  };
   const std::string body =
       "<h1>Egg collection in the duck house</h1>\n" +
       fmt::format("<p class=\"{}\">{} of {} eggs collected, {} collisions.</p>\n",
@@ -123,13 +21,14 @@ std::string render_html(const Record& survey, const Record& collection, const Su
                   collection.collisions + survey.collisions) +
       fmt::format("<p>Seed {}, {:.0f} s of wall time, {}.</p>\n", summary.seed,
                   summary.wall_seconds, escape_markup(summary.version)) +
-      "<h2>The collection</h2>\n" + image(run_png, "costmap, path driven, eggs and their order") +
-      figures_table(collection) + egg_table(collection) +
+      "<h2>The collection</h2>\n" +
+      image_tag(run_png, "costmap, path driven, eggs and their order") + figures_table(collection) +
+      target_table(collection, "egg") +
       fmt::format("<p>Cost of the chosen order: {:.2f} m. Picked {}, failed {}.</p>\n",
                   collection.tour_cost, f.eggs_picked, f.eggs_failed) +
       "<h2>The survey</h2>\n<p>The map the robot made of the house before, and its way through "
       "it.</p>\n" +
-      image(map_png, "map made by slam") + figures_table(survey);
+      image_tag(map_png, "map made by slam") + figures_table(survey);
   return html_page("Coop demo", body);
 }
 

@@ -18,6 +18,8 @@ constexpr std::string_view kMaster = "master of time";
 constexpr auto kTopics = std::to_array<TopicInfo>({
     {"amcl_pose", "geometry_msgs/PoseWithCovarianceStamped", kLatched, 0, "amcl", "person",
      "pose in map with covariance, at every update of the filter"},
+    {"animals", "vision_msgs/Detection3DArray", kEvent, 5, "camera_driver", "person",
+     "animals that an overhead camera found in one picture, in map; an empty list says none"},
     {"camera/camera_info", "sensor_msgs/CameraInfo", kStream, 5, "camera_driver",
      "sequencer, person", "calibration of the picture of the same stamp"},
     {"camera/depth", "sensor_msgs/Image", kStream, 5, "camera_driver", "person",
@@ -64,6 +66,9 @@ constexpr auto kTopics = std::to_array<TopicInfo>({
      "lockstep: who takes part from which tick on"},
     {"lockstep_tick", "coop_msgs/LockstepTick", kEvent, 0, kMaster, "all",
      "lockstep: run this tick; each component has a topic of its own, lockstep_tick/NAME"},
+    {"manure", "vision_msgs/Detection3DArray", kEvent, 5, "camera_driver", "sequencer",
+     "heaps of manure that an overhead camera found in one picture, in map; an empty list says "
+     "none"},
     {"map", "nav_msgs/OccupancyGrid", kLatched, 0, "amcl, slam", "dwa, global_planner, person",
      "the map being made, or the map served"},
     {"mission", "coop_msgs/Mission", kLatched, 0, "person", "sequencer",

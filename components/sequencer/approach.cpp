@@ -11,6 +11,9 @@ void ApproachConfig::describe(config::Fields& fields) {
                 {.unit = "m", .help = "from base_link to the egg", .min = 0.1, .max = 3});
   fields.integer("headings", headings,
                  {.help = "poses tried on the circle around the egg", .min = 1, .max = 360});
+  fields.number(
+      "beyond", beyond,
+      {.unit = "m", .help = "cleaning: of the blade beyond a heap at the end", .min = 0, .max = 1});
   fields.number("reach_along", reach.along,
                 {.unit = "m", .help = "tolerance along the heading", .min = 0, .max = 1});
   fields.number("reach_across", reach.across,

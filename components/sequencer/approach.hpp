@@ -11,6 +11,7 @@ namespace coop::sequencer {
 struct ApproachConfig {
   double distance = 0.92;     ///< m, d_pe: from base_link to the egg
   int headings = 24;          ///< poses tried on the circle around the egg
+  double beyond = 0.05;       ///< m, of the blade beyond a heap at the end of the drive over it
   robot::WorkingRange reach;  ///< where the egg may lie on arrival
 
   void describe(config::Fields& fields);

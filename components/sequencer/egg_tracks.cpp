@@ -67,7 +67,7 @@ EggTrack* EggTracks::match(const Sighting& sighting, const Eigen::Matrix2d& nois
 
 EggTrack& EggTracks::add(const Sighting& sighting, const Eigen::Matrix2d& noise) {
   EggTrack track;
-  track.id = "egg" + std::to_string(next_id_++);
+  track.id = config_.name + std::to_string(next_id_++);
   track.egg_in_map = sighting.egg_in_map;
   track.covariance = noise;
   return tracks_.emplace_back(std::move(track));
@@ -114,6 +114,7 @@ void EggTracks::count(const Picture& picture) {
 }
 
 void EggTracks::update(const Picture& picture) {
+  pictures_ += 1;
   grow(picture.stamp);
   for (const Sighting& sighting : picture.sightings) take(sighting, picture.stamp);
   count(picture);
@@ -149,7 +150,7 @@ void EggTracks::mark_picked(const std::string& id, Time now) {
 }
 
 void EggTracks::restore(EggTrack track) {
-  const std::string digits = track.id.substr(std::min<std::size_t>(3, track.id.size()));
+  const std::string digits = track.id.substr(std::min(config_.name.size(), track.id.size()));
   if (!digits.empty() && std::ranges::all_of(digits, [](char c) { return c >= '0' && c <= '9'; })) {
     next_id_ = std::max(next_id_, std::stoi(digits) + 1);
   }

@@ -11,6 +11,7 @@
 namespace coop::sequencer {
 
 struct EggTracksConfig {
+  std::string name = "egg";    ///< of what is tracked: ids are this and a number; not configured
   int confirm_after = 3;       ///< sightings until an egg counts
   double gate = 9.21;          ///< squared Mahalanobis distance of a match: 99 % of two dimensions
   double max_distance = 0.30;  ///< m, farther sightings are never the same egg
@@ -73,6 +74,7 @@ class EggTracks {
   void restore(EggTrack track);
 
   [[nodiscard]] const std::vector<EggTrack>& tracks() const { return tracks_; }
+  [[nodiscard]] int pictures() const { return pictures_; }  ///< taken in
   [[nodiscard]] const EggTrack* find(const std::string& id) const;
 
  private:
@@ -87,6 +89,7 @@ class EggTracks {
   std::vector<EggTrack> tracks_;
   Time last_update_{};
   int next_id_ = 1;
+  int pictures_ = 0;
 };
 
 }  // namespace coop::sequencer

@@ -1,10 +1,10 @@
-#include "sequencer/mission.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <numbers>
 #include <utility>
+
+#include "sequencer/mission_rules.hpp"
 
 namespace coop::sequencer {
 
@@ -24,6 +24,8 @@ void Mission::start(MissionKind kind, const std::string& mission_id,
   state_.kind = kind;
   state_.waypoints = std::move(waypoints);
   drive_.reset();
+  pictures_before_.reset();
+  is_home_ = false;
   enter(MissionPhase::kSearching, "starting");
 }
 
@@ -60,7 +62,7 @@ MissionActions Mission::step(const MissionSnapshot& snapshot, const MapQueries& 
       changed_ = true;
     }
     adopt_eggs(snapshot);
-    note_late_pick(snapshot);
+    (this->*rules().observe)(snapshot);
     switch (state_.phase) {
       case MissionPhase::kSearching:
         step_waypoints(snapshot, now);
@@ -88,6 +90,7 @@ MissionActions Mission::step(const MissionSnapshot& snapshot, const MapQueries& 
 
 void Mission::drive_to(const Pose2& pose, const MissionSnapshot& snapshot, Time now) {
   // The shell stamps the goal with this time; its digits are the goal's name on all topics.
+  is_home_ = false;
   drive_ = Drive{{std::to_string(to_nanoseconds(now)), pose}, *snapshot.robot_in_map, now, now};
   actions_.goal = drive_->goal;
   state_.goal_id = drive_->goal.goal_id;
@@ -133,10 +136,10 @@ NavigationReport Mission::drive_result(const MissionSnapshot& snapshot, Time now
 }
 
 void Mission::step_waypoints(const MissionSnapshot& snapshot, Time now) {
-  const bool enough = state_.kind == MissionKind::kCollect && config_.expected_eggs > 0 &&
-                      known_eggs() >= config_.expected_eggs;
-  if (enough || state_.next_waypoint >= state_.waypoints.size()) {
-    end_search_or_mission();
+  if ((this->*rules().knows_enough)() || state_.next_waypoint >= state_.waypoints.size()) {
+    drive_.reset();
+    (this->*rules().after_search)(snapshot);
+    if (state_.phase != MissionPhase::kSearching) state_.searches += 1;
     return;
   }
   const Waypoint& waypoint = state_.waypoints[state_.next_waypoint];
@@ -164,16 +167,6 @@ void Mission::step_waypoints(const MissionSnapshot& snapshot, Time now) {
   changed_ = true;
 }
 
-void Mission::end_search_or_mission() {
-  drive_.reset();
-  state_.searches += 1;
-  if (state_.kind == MissionKind::kCollect) {
-    enter(MissionPhase::kOrdering, fmt::format("{} eggs known", known_eggs()));
-    return;
-  }
-  finish();
-}
-
 int Mission::known_eggs() const {
   return static_cast<int>(state_.eggs.size()) - state_.count(EggPhase::kMissing);
 }
@@ -198,9 +191,9 @@ void Mission::search_again() {
 void Mission::finish() {
   drive_.reset();
   std::string detail;
-  if (state_.kind == MissionKind::kCollect) {
-    detail =
-        fmt::format("{} of {} eggs picked", state_.count(EggPhase::kPicked), state_.eggs.size());
+  if (!rules().target.empty()) {
+    detail = fmt::format("{} of {} {}s {}", state_.count(EggPhase::kPicked), state_.eggs.size(),
+                         rules().target, rules().done);
     const int missing = state_.count(EggPhase::kMissing);
     if (missing > 0) detail += fmt::format(", {} missing", missing);
   } else {
@@ -224,7 +217,7 @@ void Mission::step_returning(const MissionSnapshot& snapshot, Time now) {
   if (result.state == NavigationReport::State::kFailed) {
     state_.missed_waypoints.push_back("home: " + result.reason);
   }
-  finish();
+  (this->*rules().at_home)();
 }
 
 }  // namespace coop::sequencer

@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Geometry>
 #include <functional>
 #include <optional>
 #include <string>
@@ -33,6 +34,10 @@ struct MissionConfig {
   int seen_again_after = 3;        ///< pictures in a row with a missing egg: it is there again
   double last_look = 1.5;          ///< s for what the arm lost to be seen, before the mission ends
   bool return_home = false;        ///< drive back to where the mission began
+  int look_pictures = 10;          ///< cleaning: of the pen, before the order is made
+  double sweep_margin =
+      0.09;                  ///< m, cleaning: by which the blade must reach beyond a heap's middle
+  double retry_pause = 5.0;  ///< s, cleaning: of standing until what failed is tried again
 
   void describe(config::Fields& fields);
 };
@@ -72,6 +77,7 @@ struct MissionSnapshot {
   std::optional<NavigationReport> navigation;  ///< the last word on the present goal
   std::optional<PickReport> pick;              ///< the last word on the present pick
   const std::vector<EggTrack>* tracks = nullptr;
+  int pictures = 0;  ///< looked at so far
 };
 
 struct GoalOrder {
@@ -91,8 +97,10 @@ struct MissionActions {
   std::optional<GoalOrder> goal;
   std::optional<std::string> take_back;  ///< id of a goal: the navigators are to stop
   std::optional<PickOrder> pick;
-  std::optional<std::string> picked_egg;  ///< tell the tracks
+  std::vector<std::string> picked_eggs;  ///< tell the tracks
 };
+
+struct MissionRules;
 
 /// The mission as a pure state machine: no clock, no topics. Goals and picks are told again until
 /// they are answered, so that the death of any other process only delays. Where the robot is to
@@ -101,8 +109,10 @@ struct MissionActions {
 /// again under the same pick id, which the arm answers once and for all.
 class Mission {
  public:
-  Mission(const MissionConfig& config, const ApproachConfig& approach)
-      : config_(config), approach_(approach) {}
+  /// `scraper`: the blade of a robot that cleans, in base_link, m.
+  Mission(const MissionConfig& config, const ApproachConfig& approach,
+          const std::optional<Eigen::AlignedBox2d>& scraper = {})
+      : config_(config), approach_(approach), scraper_(scraper) {}
 
   void start(MissionKind kind, const std::string& mission_id, std::vector<Waypoint> waypoints);
   void pause();
@@ -124,23 +134,18 @@ class Mission {
     Time told{};
   };
 
+  [[nodiscard]] const MissionRules& rules() const;
+
   void adopt_eggs(const MissionSnapshot& snapshot);
   void step_waypoints(const MissionSnapshot& snapshot, Time now);
   void step_ordering(const MissionSnapshot& snapshot, const MapQueries& queries, Time now);
-  void end_or_search_again(Time now);
   void step_approach(const MissionSnapshot& snapshot, const MapQueries& queries, Time now);
-  void step_arrival(const MissionSnapshot& snapshot, Time now);
   void step_picking(const MissionSnapshot& snapshot, Time now);
   void step_returning(const MissionSnapshot& snapshot, Time now);
   void begin_approach(const MissionSnapshot& snapshot, const MapQueries& queries, Time now);
   void refresh_goal(const MissionSnapshot& snapshot, const EggTask& egg, const MapQueries& queries);
-  /// Pictures in a row, taken from near the approach pose, that lack the egg.
-  [[nodiscard]] int pictures_without(const MissionSnapshot& snapshot, const EggTask& egg);
   [[nodiscard]] bool try_another_side(const MissionSnapshot& snapshot, EggTask& egg);
   void attempt_failed(EggTask& egg, const std::string& reason);
-  void egg_picked(EggTask& egg);
-  void note_late_pick(const MissionSnapshot& snapshot);
-  void egg_not_seen(EggTask& egg);
   void enter(MissionPhase phase, const std::string& detail);
   void drive_to(const Pose2& pose, const MissionSnapshot& snapshot, Time now);
   void repeat_goal(Time now);
@@ -148,7 +153,34 @@ class Mission {
   void take_goal_back(Time now);
   /// The navigators' answer to the present goal, a time-out included.
   [[nodiscard]] NavigationReport drive_result(const MissionSnapshot& snapshot, Time now) const;
-  void end_search_or_mission();
+
+  // What MissionRules chooses from. Of kinds with nothing of their own:
+  void look_on(const MissionSnapshot& snapshot);
+  [[nodiscard]] bool knows_nothing() const;
+  [[nodiscard]] bool waits_never(const std::vector<const EggTask*>& put_off, Time now);
+  [[nodiscard]] bool drives_on(const MissionSnapshot& snapshot, EggTask& target);
+  void end_survey(const MissionSnapshot& snapshot);
+
+  // Of collections.
+  [[nodiscard]] bool knows_expected_eggs() const;
+  void order_eggs(const MissionSnapshot& snapshot);
+  [[nodiscard]] bool looks_in_vain(const MissionSnapshot& snapshot, EggTask& egg);
+  void step_arrival(const MissionSnapshot& snapshot, Time now);
+  void end_or_search_again(Time now);
+  void egg_picked(EggTask& egg);
+  void note_late_pick(const MissionSnapshot& snapshot);
+  void egg_not_seen(EggTask& egg);
+  /// Pictures in a row, taken from near the approach pose, that lack the egg.
+  [[nodiscard]] int pictures_without(const MissionSnapshot& snapshot, const EggTask& egg);
+
+  // Of cleaning.
+  void order_heaps(const MissionSnapshot& snapshot);
+  void note_swept(const MissionSnapshot& snapshot);
+  [[nodiscard]] bool waits_for_pigs(const std::vector<const EggTask*>& put_off, Time now);
+  void step_beside_heap(const MissionSnapshot& snapshot, Time now);
+  void go_home_and_look(Time now);
+  void look_back();
+
   [[nodiscard]] int known_eggs() const;  ///< those that turned out missing left out
   [[nodiscard]] bool wants_another_search() const;
   void search_again();
@@ -156,6 +188,7 @@ class Mission {
 
   MissionConfig config_;
   ApproachConfig approach_;
+  std::optional<Eigen::AlignedBox2d> scraper_;
   MissionState state_;
   MissionActions actions_;
   std::optional<Drive> drive_;
@@ -166,6 +199,10 @@ class Mission {
   Time taken_back_{};  ///< when the goal was taken back last
   std::optional<Time> pick_begun_;
   Time pick_told_{};
+  std::optional<Time> waiting_since_;   ///< until what failed is tried again
+  std::optional<int> pictures_before_;  ///< the look at the pen
+  std::optional<Pose2> observed_from_;  ///< where the robot was at the last step
+  bool is_home_ = false;
   bool changed_ = false;
 };
 

@@ -43,6 +43,12 @@ void MissionConfig::describe(config::Fields& fields) {
                  {.help = "pictures in a row with a missing egg", .min = 1, .max = 1000});
   fields.number("last_look", last_look,
                 {.unit = "s", .help = "for what the arm lost, at the end", .min = 0, .max = 60});
+  fields.integer("look_pictures", look_pictures,
+                 {.help = "cleaning: of the pen, before the order is made", .min = 1, .max = 1000});
+  fields.number("sweep_margin", sweep_margin,
+                {.unit = "m", .help = "cleaning: of the blade beyond a heap's middle", .min = 0});
+  fields.number("retry_pause", retry_pause,
+                {.unit = "s", .help = "cleaning: until what failed is tried again", .min = 0});
   fields.flag("return_home", return_home, {.help = "drive back to where the mission began"});
 }
 

@@ -14,7 +14,7 @@ void WaypointConfig::describe(config::Fields& fields) {
 }
 
 void SequencerConfig::describe(config::Fields& fields) {
-  static constexpr std::array<std::string_view, 3> kStarts{"none", "collect", "survey"};
+  static constexpr std::array<std::string_view, 4> kStarts{"none", "collect", "survey", "clean"};
   static constexpr std::array<std::string_view, 2> kMethods{"paper", "best"};
   fields.text("robot", robot, {.help = "URDF of the robot: its footprint"});
   fields.choice("autostart", autostart, kStarts, {.help = "mission begun by itself"});
@@ -58,17 +58,32 @@ OrderingStreams to_streams(RandomStream random) {
   return {random, RandomStream(copy(), "max_min_ants")};
 }
 
+EggTracksConfig tracks_of(const SequencerConfig& config, bool cleans) {
+  EggTracksConfig tracks = config.tracks;
+  if (cleans) tracks.name = "heap";
+  return tracks;
+}
+
+ApproachConfig approach_of(const SequencerConfig& config,
+                           const std::optional<Eigen::AlignedBox2d>& scraper) {
+  ApproachConfig approach = config.approach;
+  if (scraper) approach.distance = scraper->center().x() - approach.beyond;
+  return approach;
+}
+
 }  // namespace
 
-Sequencer::Sequencer(const SequencerConfig& config, const Footprint& footprint, RandomStream random)
+Sequencer::Sequencer(const SequencerConfig& config, const Footprint& footprint, RandomStream random,
+                     const std::optional<Eigen::AlignedBox2d>& scraper)
     : config_(config),
-      tracks_(config.tracks),
+      tracks_(tracks_of(config, scraper.has_value())),
       costs_(footprint, config.traversal),
-      mission_(config.mission, config.approach),
+      mission_(config.mission, approach_of(config, scraper), scraper),
       streams_(to_streams(random)) {}
 
 MissionActions Sequencer::step(MissionSnapshot snapshot, Time now) {
   snapshot.tracks = &tracks_.tracks();
+  snapshot.pictures = tracks_.pictures();
   MapQueries queries;
   queries.pose_cost = [&](const Pose2& pose) {
     return costs_.pose_cost(*snapshot.robot_in_map, pose);
@@ -77,7 +92,7 @@ MissionActions Sequencer::step(MissionSnapshot snapshot, Time now) {
     return order(robot, eggs);
   };
   MissionActions actions = mission_.step(snapshot, queries, now);
-  if (actions.picked_egg) tracks_.mark_picked(*actions.picked_egg, now);
+  for (const std::string& id : actions.picked_eggs) tracks_.mark_picked(id, now);
   return actions;
 }
 

@@ -18,7 +18,7 @@ struct WaypointConfig {
 
 struct SequencerConfig {
   std::string robot = "config/robot/egg_collector.urdf";
-  std::string autostart = "none";  ///< none, collect, survey
+  std::string autostart = "none";  ///< none, collect, survey, clean
   std::string method = "paper";    ///< paper: ant colony; best: exact, or MAX-MIN ants
   int max_together = 100;          ///< eggs ordered together: the nearest; the others follow
   std::vector<WaypointConfig> waypoints;
@@ -36,7 +36,10 @@ struct SequencerConfig {
 /// Tracks, mission and path costs joined: what the shell drives.
 class Sequencer {
  public:
-  Sequencer(const SequencerConfig& config, const Footprint& footprint, RandomStream random);
+  /// `scraper`: the blade of a robot that cleans, in base_link, m; it is heaps then that are
+  /// tracked, and approached until the blade has passed over them.
+  Sequencer(const SequencerConfig& config, const Footprint& footprint, RandomStream random,
+            const std::optional<Eigen::AlignedBox2d>& scraper = {});
 
   void see(const Picture& picture) { tracks_.update(picture); }
   void set_costmap(const OccupancyGrid& costmap) { costs_.set_costmap(costmap); }

@@ -57,8 +57,12 @@ RobotShape shape_of(const robot::RobotModel& model) {
   for (const robot::Joint& joint : model.joints()) {
     if (joint.name.ends_with("_wheel_joint")) shape.wheels.push_back(patch_of(model, joint));
   }
-  shape.working_point = model.mount(robot::kWorkingPoint).translation().head<2>();
-  shape.basket = basket_of(model);
+  if (model.has_link(robot::kScraperLink)) {
+    shape.scraper = model.scraper();
+  } else {
+    shape.working_point = model.mount(robot::kWorkingPoint).translation().head<2>();
+    shape.basket = basket_of(model);
+  }
   if (model.has_link(robot::kImuLink)) shape.imu_in_base = model.mount(robot::kImuLink);
   return shape;
 }

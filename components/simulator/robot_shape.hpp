@@ -21,9 +21,12 @@ struct RobotShape {
   std::vector<Eigen::Vector2d> footprint;  ///< convex, counter-clockwise, in base_link, m
   robot::AckermannGeometry base;
   std::vector<WheelPatch> wheels;
-  Eigen::Vector2d working_point{0, 0};  ///< of the egg when it is picked, in base_link, m
-  /// Eggs released within it fall into the basket; in base_link, m.
+  Eigen::Vector2d working_point{
+      0, 0};  ///< of the egg when it is picked, in base_link, m; of a robot with an arm
+  /// Eggs released within it fall into the basket; in base_link, m; empty: it has none.
   Eigen::AlignedBox3d basket;
+  /// The blade of a cleaning robot over the floor, in base_link, m; empty: it has none.
+  Eigen::AlignedBox2d scraper;
   Pose3 imu_in_base = Pose3::Identity();
 };
 

@@ -44,6 +44,12 @@ std::uint64_t fingerprint_of(const world::World& world, const std::vector<world:
     print.add(egg.position.x());
     print.add(egg.position.y());
   }
+  for (const world::Heap& heap : world.heaps) {
+    print.add(heap.id);
+    print.add(heap.position.x());
+    print.add(heap.position.y());
+    print.add(heap.radius);
+  }
   for (const world::Animal& animal : animals) {
     print.add(animal.id);
     print.add(animal.radius);
@@ -73,6 +79,7 @@ Simulation::Simulation(const SimulationConfig& config, const RobotShape& robot,
       wheels_(config.wheel_sensor, robot.base, world.seed),
       imu_(config.imu, robot.imu_in_base, world.seed),
       eggs_(config.eggs, robot, world.eggs),
+      heaps_(robot.scraper, world.heaps),
       flock_(config.animals, animals, world.seed),
       grown_footprint_(Footprint(robot.footprint, kContactEnd).vertices()) {
   fingerprint_ = fingerprint_of(world, flock_.animals());
@@ -82,17 +89,25 @@ Simulation::Simulation(const SimulationConfig& config, const RobotShape& robot,
   update_truth();
 }
 
-bool Simulation::touches_something(std::span<const Eigen::Vector2d> outline) const {
-  if (outline_hits_grid(outline, grid_)) return true;
+Simulation::Contact Simulation::contact_of(std::span<const Eigen::Vector2d> outline) const {
   const auto& animals = flock_.animals();
-  return std::any_of(animals.begin(), animals.end(), [&](const world::Animal& animal) {
+  const bool touches = std::any_of(animals.begin(), animals.end(), [&](const auto& animal) {
     return distance_to_outline(outline, animal.position) < animal.radius;
   });
+  if (touches) return Contact::kAnimal;
+  return outline_hits_grid(outline, grid_) ? Contact::kWall : Contact::kNone;
 }
 
-bool Simulation::touches_something_near() {
+Simulation::Contact Simulation::contact_nearby() {
   place(grown_footprint_, vehicle_.state().robot_in_world, grown_outline_);
-  return touches_something(grown_outline_);
+  return contact_of(grown_outline_);
+}
+
+void Simulation::count(Contact contact) {
+  if (in_collision_) return;
+  in_collision_ = true;
+  ++collision_count_;
+  if (contact == Contact::kAnimal) ++animal_collision_count_;
 }
 
 void Simulation::drive() {
@@ -101,26 +116,28 @@ void Simulation::drive() {
   const Twist2 before = vehicle_.state().velocity;
   const VehicleMotion motion = vehicle_.roll(setpoint, dt);
   place(robot_.footprint, motion.robot_in_world, outline_);
-  if (motion.distance != 0.0 && touches_something(outline_)) {
-    if (!in_collision_) ++collision_count_;
-    in_collision_ = true;
+  const Contact contact = motion.distance != 0.0 ? contact_of(outline_) : Contact::kNone;
+  if (contact != Contact::kNone) {
+    count(contact);
     vehicle_.halt();
     drive_.reset({0.0, setpoint.steering, setpoint.cause});
     place(robot_.footprint, vehicle_.state().robot_in_world, outline_);
   } else {
     vehicle_.move(motion, dt);
     wheels_.roll(motion.rolled_left, motion.rolled_right);
-    if (in_collision_) in_collision_ = touches_something_near();
+    if (in_collision_) in_collision_ = contact_nearby() != Contact::kNone;
   }
   imu_reading_ = imu_.read(before, vehicle_.state().velocity, dt, now());
 }
 
 void Simulation::step() {
   ++tick_;
+  const Pose2 before = vehicle_.state().robot_in_world;
   drive();
   if (has_new_reading()) wheels_.read(vehicle_.state().steering, now());
   flock_.step(to_seconds(kTick), grid_, outline_);
   eggs_.step(vehicle_.state().robot_in_world, vehicle_.state().steering, gripper_);
+  heaps_.step(before, vehicle_.state().robot_in_world);
   update_truth();
 }
 
@@ -131,16 +148,18 @@ void Simulation::update_truth() {
   truth_.steering_angle = vehicle_.state().steering;
   truth_.in_collision = in_collision_;
   truth_.collision_count = collision_count_;
+  truth_.animal_collision_count = animal_collision_count_;
   truth_.eggs = eggs_.eggs();
   truth_.animals = flock_.animals();
+  truth_.heaps = heaps_.heaps();
 }
 
 template <class Archive>
 void Simulation::persist(Archive& archive) {
   vehicle::DriveSetpoint setpoint = drive_.setpoint();
   archive(tick_, setpoint.speed, setpoint.steering, setpoint.cause, vehicle_, wheels_, imu_, eggs_,
-          flock_, gripper_.suction, gripper_.tip_in_base, in_collision_, collision_count_,
-          imu_reading_.angular_velocity, imu_reading_.linear_acceleration);
+          heaps_, flock_, gripper_.suction, gripper_.tip_in_base, in_collision_, collision_count_,
+          animal_collision_count_, imu_reading_.angular_velocity, imu_reading_.linear_acceleration);
   drive_.reset(setpoint);
 }
 

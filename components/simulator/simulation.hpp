@@ -11,6 +11,7 @@
 #include "core/world/state.hpp"
 #include "simulator/egg_field.hpp"
 #include "simulator/flock.hpp"
+#include "simulator/heap_field.hpp"
 #include "simulator/robot_shape.hpp"
 #include "simulator/sensors.hpp"
 #include "simulator/vehicle_dynamics.hpp"
@@ -65,10 +66,13 @@ class Simulation {
   void restore(std::string_view stored);
 
  private:
+  enum class Contact { kNone, kAnimal, kWall };
+
   void drive();
   void update_truth();
-  [[nodiscard]] bool touches_something(std::span<const Eigen::Vector2d> outline) const;
-  [[nodiscard]] bool touches_something_near();
+  [[nodiscard]] Contact contact_of(std::span<const Eigen::Vector2d> outline) const;
+  [[nodiscard]] Contact contact_nearby();
+  void count(Contact contact);
   template <class Archive>
   void persist(Archive& archive);
 
@@ -80,11 +84,13 @@ class Simulation {
   WheelSensor wheels_;
   ImuSensor imu_;
   EggField eggs_;
+  HeapField heaps_;
   Flock flock_;
   GripperInput gripper_;
   std::uint64_t tick_ = 0;
   bool in_collision_ = false;
   std::uint32_t collision_count_ = 0;
+  std::uint32_t animal_collision_count_ = 0;
   ImuReading imu_reading_;
   world::GroundTruth truth_;
   std::vector<Eigen::Vector2d> outline_;          ///< of the robot in world

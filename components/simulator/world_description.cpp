@@ -5,9 +5,10 @@
 #include <set>
 
 #include "core/config/error.hpp"
+#include "core/random.hpp"
 #include "core/world/shapes.hpp"
 #include "simulator/contact.hpp"
-#include "simulator/egg_placement.hpp"
+#include "simulator/placement.hpp"
 
 namespace coop::simulator {
 namespace {
@@ -79,10 +80,49 @@ std::vector<world::Egg> lay_eggs(const WorldDescription& description, const worl
   }
   std::vector<Vector2d> taken;
   for (const world::Egg& egg : eggs) taken.emplace_back(egg.position.head<2>());
-  for (const Vector2d& place : place_eggs(description.random_eggs, world, robot, taken)) {
+  const Quarry quarry{"egg", robot.working_point};
+  for (const Vector2d& place :
+       place_at_random(description.random_eggs, quarry, world, robot, taken)) {
     lay({}, place);
   }
   return eggs;
+}
+
+std::vector<world::Heap> drop_heaps(const WorldDescription& description, const world::World& world,
+                                    const RobotShape& robot) {
+  std::vector<world::Heap> heaps;
+  std::set<std::string> names;
+  const auto drop = [&](const std::string& id, const Vector2d& place, double radius) {
+    const std::string name = id.empty() ? "heap_" + std::to_string(heaps.size() + 1) : id;
+    check_unique(names, name, "heaps");
+    heaps.push_back({name, place, radius, world::HeapState::kOnFloor});
+  };
+  for (const HeapPlace& heap : description.heaps) {
+    if (!disc_is_free({heap.x, heap.y}, heap.radius, world.grid)) {
+      throw config::Error("world: heap at " + place_text(heap.x, heap.y) +
+                          " does not lie on free floor");
+    }
+    drop(heap.id, {heap.x, heap.y}, heap.radius);
+  }
+  const RandomHeaps& wanted = description.random_heaps;
+  if (wanted.count > 0 && robot.scraper.isEmpty()) {
+    throw config::Error("world: random_heaps: the robot has no scraper to get at them");
+  }
+  std::vector<Vector2d> taken;
+  for (const world::Heap& heap : heaps) taken.push_back(heap.position);
+  RandomStream sizes(wanted.seed < 0 ? world.seed : static_cast<std::uint64_t>(wanted.seed),
+                     "simulator/heap_sizes");
+  const Quarry quarry{"heap", robot.scraper.center()};
+  for (const Vector2d& place : place_at_random(wanted, quarry, world, robot, taken)) {
+    drop({}, place, sizes.uniform(wanted.min_radius, wanted.max_radius));
+  }
+  return heaps;
+}
+
+void check_region(const std::vector<double>& region, const std::string& key) {
+  if (!region.empty() && (region.size() != 4 || region[0] >= region[2] || region[1] >= region[3])) {
+    throw config::Error("world: " + key + ".region: expected x_min, y_min, x_max, y_max");
+  }
 }
 
 }  // namespace
@@ -99,7 +139,7 @@ void EggPlace::describe(config::Fields& fields) {
   fields.number("y", y, {.unit = "m", .help = "in world"});
 }
 
-void RandomEggs::describe(config::Fields& fields) {
+void RandomPlaces::describe(config::Fields& fields) {
   fields.integer("count", count, {.unit = "1", .help = "how many", .min = 0, .max = 1000});
   fields.integer("seed", seed,
                  {.unit = "1", .help = "of their places; -1: that of the simulation", .min = -1});
@@ -107,13 +147,42 @@ void RandomEggs::describe(config::Fields& fields) {
                  {.unit = "m", .help = "x_min, y_min, x_max, y_max in world; empty: everywhere"});
   fields.number("wall_clearance", wall_clearance,
                 {.unit = "m", .help = "from everything solid", .min = 0.05, .max = 10});
-  fields.number("spacing", spacing, {.unit = "m", .help = "between eggs", .min = 0.1, .max = 10});
+  fields.number("spacing", spacing, {.unit = "m", .help = "between them", .min = 0.1, .max = 10});
   fields.number(
       "lead_in", lead_in,
-      {.unit = "m", .help = "free straight way behind a picking place", .min = 0, .max = 5});
+      {.unit = "m", .help = "free straight way behind where the robot stands", .min = 0, .max = 5});
   fields.number(
       "margin", margin,
       {.unit = "m", .help = "kept free around the robot on that way", .min = 0, .max = 2});
+}
+
+void HeapPlace::describe(config::Fields& fields) {
+  fields.text("id", id, {.help = "name; heap_<number> where empty"});
+  fields.number("x", x, {.unit = "m", .help = "in world"});
+  fields.number("y", y, {.unit = "m", .help = "in world"});
+  fields.number("radius", radius, {.unit = "m", .help = "of the heap", .min = 0.01, .max = 1});
+}
+
+void RandomHeaps::describe(config::Fields& fields) {
+  RandomPlaces::describe(fields);
+  fields.number("min_radius", min_radius,
+                {.unit = "m", .help = "of the smallest", .min = 0.01, .max = 1});
+  fields.number("max_radius", max_radius,
+                {.unit = "m", .help = "of the largest", .min = 0.01, .max = 1});
+}
+
+void RandomAnimals::describe(config::Fields& fields) {
+  fields.integer("count", count, {.unit = "1", .help = "how many", .min = 0, .max = 1000});
+  fields.integer("seed", seed,
+                 {.unit = "1", .help = "of their places; -1: that of the simulation", .min = -1});
+  fields.numbers("region", region,
+                 {.unit = "m", .help = "x_min, y_min, x_max, y_max in world; empty: everywhere"});
+  fields.number("radius", radius, {.unit = "m", .help = "of a disc", .min = 0.02, .max = 2});
+  fields.number("speed", speed, {.unit = "m/s", .help = "while walking", .min = 0, .max = 3});
+  fields.number("clearance", clearance,
+                {.unit = "m", .help = "from walls and each other", .min = 0, .max = 5});
+  fields.number("robot_clearance", robot_clearance,
+                {.unit = "m", .help = "from the robot's start", .min = 0, .max = 10});
 }
 
 void WallSegment::describe(config::Fields& fields) {
@@ -137,16 +206,21 @@ void WorldDescription::describe(config::Fields& fields) {
   fields.section("robot_start", robot_start);
   fields.list("eggs", eggs);
   fields.section("random_eggs", random_eggs);
+  fields.list("heaps", heaps);
+  fields.section("random_heaps", random_heaps);
   fields.list("walls", walls);
   fields.list("boxes", boxes);
   fields.list("animals", animals);
+  fields.section("random_animals", random_animals);
 }
 
 void WorldDescription::validate() const {
   if (map.empty()) throw config::Error("world: 'map' is missing");
-  const auto& r = random_eggs.region;
-  if (!r.empty() && (r.size() != 4 || r[0] >= r[2] || r[1] >= r[3])) {
-    throw config::Error("world: random_eggs.region: expected x_min, y_min, x_max, y_max");
+  check_region(random_eggs.region, "random_eggs");
+  check_region(random_heaps.region, "random_heaps");
+  check_region(random_animals.region, "random_animals");
+  if (random_heaps.min_radius > random_heaps.max_radius) {
+    throw config::Error("world: random_heaps.min_radius: expected no more than max_radius");
   }
 }
 
@@ -171,6 +245,7 @@ world::World build_world(const WorldDescription& description, OccupancyGrid map,
   }
   check_animals(description, world.grid);
   world.eggs = lay_eggs(description, world, robot);
+  world.heaps = drop_heaps(description, world, robot);
   return world;
 }
 

@@ -24,15 +24,42 @@ struct EggPlace {
   void describe(config::Fields& fields);
 };
 
-/// Eggs laid at random where the robot can pick them up.
-struct RandomEggs {
+/// Places drawn at random, of things for the robot to get at: eggs to pick up, heaps to clean.
+struct RandomPlaces {
   int count = 0;
   std::int64_t seed = -1;        ///< -1: the seed of the simulation
   std::vector<double> region;    ///< x_min, y_min, x_max, y_max, m in world; empty: everywhere
   double wall_clearance = 0.45;  ///< m from everything solid
-  double spacing = 0.60;         ///< m between eggs, and from the robot's outline at the start
-  double lead_in = 0.60;  ///< m of free straight way behind the place from which the egg is picked
+  double spacing = 0.60;         ///< m between them, and from the robot's outline at the start
+  double lead_in = 0.60;  ///< m of free straight way behind the place where the robot stands for it
   double margin = 0.10;   ///< m kept free around the robot on that way
+  void describe(config::Fields& fields);
+};
+
+struct HeapPlace {
+  std::string id;        ///< empty: heap_<number>
+  double x = 0.0;        ///< m in world
+  double y = 0.0;        ///< m in world
+  double radius = 0.07;  ///< m
+  void describe(config::Fields& fields);
+};
+
+/// Heaps of manure dropped at random, where the robot's scraper gets at them.
+struct RandomHeaps : RandomPlaces {
+  double min_radius = 0.05;  ///< m
+  double max_radius = 0.09;  ///< m
+  void describe(config::Fields& fields);
+};
+
+/// Animals at random places, alike.
+struct RandomAnimals {
+  int count = 0;
+  std::int64_t seed = -1;        ///< -1: the seed of the simulation
+  std::vector<double> region;    ///< x_min, y_min, x_max, y_max, m in world; empty: everywhere
+  double radius = 0.25;          ///< m
+  double speed = 0.25;           ///< m/s while walking
+  double clearance = 0.12;       ///< m at the start, from walls and each other
+  double robot_clearance = 0.5;  ///< m at the start, from the robot
   void describe(config::Fields& fields);
 };
 
@@ -60,18 +87,21 @@ struct WorldDescription {
   std::string map;  ///< map YAML, relative to this file
   StartPose robot_start;
   std::vector<EggPlace> eggs;
-  RandomEggs random_eggs;
+  RandomPlaces random_eggs;
+  std::vector<HeapPlace> heaps;
+  RandomHeaps random_heaps;
   std::vector<WallSegment> walls;
   std::vector<SolidBox> boxes;
   std::vector<AnimalDescription> animals;
+  RandomAnimals random_animals;
 
   void describe(config::Fields& fields);
   void validate() const;  ///< throws config::Error
 };
 
 /// The world of a description over its map (as loaded). Same description, map, robot and seed: same
-/// world. Throws config::Error where the robot starts in a wall, an egg or animal lies in one, or
-/// the random eggs find no room.
+/// world. Throws config::Error where the robot starts in a wall, an egg, heap or animal lies in
+/// one, or what is random finds no room.
 [[nodiscard]] world::World build_world(const WorldDescription& description, OccupancyGrid map,
                                        const RobotShape& robot, std::uint64_t seed);
 

@@ -3,13 +3,14 @@
 #include <array>
 
 #include "camera_driver/node/files_backend.hpp"
+#include "camera_driver/node/overhead_backend.hpp"
 #include "camera_driver/node/simulation_backend.hpp"
 #include "core/robot/robot_model.hpp"
 
 namespace coop::camera_driver {
 namespace {
 
-constexpr std::array<std::string_view, 2> kBackends = {"sim", "files"};
+constexpr std::array<std::string_view, 3> kBackends = {"sim", "overhead", "files"};
 
 }  // namespace
 
@@ -43,27 +44,46 @@ void FilesConfig::describe(config::Fields& fields) {
   fields.section("photograph", photograph);
 }
 
+void OverheadConfig::describe(config::Fields& fields) {
+  fields.number("rate", rate,
+                {.unit = "Hz", .help = "frames a second of simulated time", .min = 0.1, .max = 50});
+  fields.section("mount", mount);
+  fields.section("noise", noise);
+  fields.section("detector", detector);
+}
+
 void CameraDriverConfig::describe(config::Fields& fields) {
   fields.choice("backend", backend, kBackends, {.help = "where pictures come from"});
   fields.text("robot", robot, {.help = "URDF of the robot"});
   fields.section("sim", sim);
   fields.section("detector", detector);
+  fields.section("overhead", overhead);
   fields.section("files", files);
 }
 
 void CameraDriverConfig::validate() const {
   sim.camera.validate();
   detector.validate();
+  overhead.detector.validate();
   files.photograph.validate();
 }
 
 void CameraDriverNode::check(const Config& config) {
   if (config.backend == "files") (void)FilesBackend::list(config.files.folder);
-  (void)robot::RobotModel::load(config.robot).mount(robot::kCameraOpticalFrame);
+  const auto robot = robot::RobotModel::load(config.robot);
+  if (config.backend == "overhead") {
+    (void)robot.footprint();
+  } else {
+    (void)robot.mount(robot::kCameraOpticalFrame);
+  }
 }
 
 CameraDriverNode::CameraDriverNode(runtime::Node& node, const Config& config) {
   const auto robot = robot::RobotModel::load(config.robot);
+  if (config.backend == "overhead") {
+    backend_ = std::make_shared<OverheadBackend>(node, config, RobotBody{robot.footprint()});
+    return;
+  }
   node.publish_static_transform(robot::kBaseLink, robot::kCameraLink,
                                 robot.mount(robot::kCameraLink));
   node.publish_static_transform(robot::kCameraLink, robot::kCameraOpticalFrame,

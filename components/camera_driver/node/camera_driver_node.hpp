@@ -3,6 +3,8 @@
 #include <string>
 
 #include "camera_driver/egg_detector.hpp"
+#include "camera_driver/overhead_mount.hpp"
+#include "camera_driver/pen_detector.hpp"
 #include "camera_driver/photograph.hpp"
 #include "camera_driver/simulated_camera.hpp"
 #include "runtime/node.hpp"
@@ -34,11 +36,22 @@ struct FilesConfig {
   void describe(config::Fields& fields);
 };
 
+/// A camera above the simulated world instead of one on the robot.
+struct OverheadConfig {
+  double rate = 5.0;  ///< Hz, of simulated time
+  OverheadMount mount;
+  SensorNoiseConfig noise;
+  PenDetectorConfig detector;
+
+  void describe(config::Fields& fields);
+};
+
 struct CameraDriverConfig {
-  std::string backend = "sim";  ///< "sim" or "files"
+  std::string backend = "sim";  ///< "sim", "overhead" or "files"
   std::string robot = "config/robot/egg_collector.urdf";
   SimulationConfig sim;
   EggDetectorConfig detector;  ///< of pictures with depth (sim)
+  OverheadConfig overhead;
   FilesConfig files;
 
   void describe(config::Fields& fields);

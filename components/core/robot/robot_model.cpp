@@ -142,6 +142,16 @@ std::vector<Eigen::Vector2d> RobotModel::footprint() const {
   return convex_hull(std::move(corners));
 }
 
+Eigen::AlignedBox2d RobotModel::scraper() const {
+  const auto& shapes = link(kScraperLink).collision;
+  if (shapes.empty() || shapes[0].kind != CollisionShape::Kind::kBox) {
+    refuse("link 'scraper_link' needs a collision box, the blade");
+  }
+  const Eigen::Vector2d middle = (mount(kScraperLink) * shapes[0].in_link).translation().head<2>();
+  const Eigen::Vector2d half = 0.5 * shapes[0].size.head<2>();
+  return {Eigen::Vector2d(middle - half), Eigen::Vector2d(middle + half)};
+}
+
 AckermannGeometry RobotModel::ackermann() const {
   if (root() != kBaseLink) refuse("the root link is '" + root() + "', expected 'base_link'");
   std::vector<const Joint*> kingpins;

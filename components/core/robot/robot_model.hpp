@@ -20,6 +20,7 @@ inline constexpr std::string_view kCameraOpticalFrame = "camera_optical_frame";
 inline constexpr std::string_view kArmBaseLink = "arm_base_link";
 inline constexpr std::string_view kSuctionCupLink = "suction_cup_link";
 inline constexpr std::string_view kBasketLink = "basket_link";
+inline constexpr std::string_view kScraperLink = "scraper_link";
 inline constexpr std::string_view kWorkingPoint = "working_point";
 
 enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic, kFloating, kPlanar };
@@ -105,6 +106,10 @@ class RobotModel {
   /// Convex outline of base_link's collision boxes seen from above, counter-clockwise, in
   /// base_link, m. Throws config::Error where there are none, or where the root is not base_link.
   [[nodiscard]] std::vector<Eigen::Vector2d> footprint() const;
+
+  /// The blade of a cleaning robot: the collision box of scraper_link seen from above, in
+  /// base_link, m, which it must be parallel to. Throws config::Error where there is none.
+  [[nodiscard]] Eigen::AlignedBox2d scraper() const;
 
   /// From the joints *_steering_joint and rear_*_wheel_joint; throws config::Error where the base
   /// has none or they are not symmetric to base_link.

@@ -13,6 +13,9 @@ inline constexpr double kObstacleHeight = 0.60;
 /// Height of an animal, a vertical cylinder, m.
 inline constexpr double kAnimalHeight = 0.40;
 
+/// Height of a heap of manure, m: no obstacle for laser or wheels.
+inline constexpr double kHeapHeight = 0.04;
+
 /// A duck egg is an ellipsoid of revolution that lies on its side: its long axis is horizontal.
 /// Half axes in metres; mean of Pekin duck eggs, 62 mm x 45 mm.
 inline constexpr double kEggHalfLength = 0.031;

@@ -43,6 +43,16 @@ struct Animal {
   bool operator==(const Animal&) const = default;
 };
 
+/// A heap of manure: a disc on the floor. Numbers as in coop_msgs/SimHeap.
+enum class HeapState : std::uint8_t { kOnFloor = 0, kCleaned = 1 };
+struct Heap {
+  std::string id;
+  Eigen::Vector2d position{0, 0};  ///< centre, m in world
+  double radius = 0.0;             ///< m
+  HeapState state = HeapState::kOnFloor;
+  bool operator==(const Heap&) const = default;
+};
+
 /// What does not change while the simulation runs.
 struct World {
   std::string map_path;
@@ -51,6 +61,7 @@ struct World {
   std::vector<Egg> eggs;  ///< as laid at the start
   Pose2 robot_start;      ///< base_link in world
   std::uint64_t seed = 0;
+  std::vector<Heap> heaps;  ///< as they lie at the start
 };
 
 /// What is true at one moment.
@@ -61,8 +72,10 @@ struct GroundTruth {
   double steering_angle = 0.0;  ///< rad, of the virtual middle wheel
   bool in_collision = false;    ///< touches something it has not yet backed away from
   std::uint32_t collision_count = 0;
+  std::uint32_t animal_collision_count = 0;  ///< of these, with an animal
   std::vector<Egg> eggs;
   std::vector<Animal> animals;
+  std::vector<Heap> heaps;
 };
 
 }  // namespace coop::world

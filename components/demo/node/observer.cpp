@@ -2,15 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <opencv2/imgproc.hpp>
+
 #include "conversions/geometry.hpp"
+#include "conversions/image.hpp"
 #include "conversions/navigation.hpp"
 #include "conversions/time.hpp"
+#include "conversions/world.hpp"
 
 namespace coop::demo {
 
 using coop_msgs::msg::GroundTruth;
 using coop_msgs::msg::MissionStatus;
 using coop_msgs::msg::SimEgg;
+using coop_msgs::msg::SimHeap;
 using coop_msgs::msg::World;
 using nav_msgs::msg::OccupancyGrid;
 using runtime::Qos;
@@ -34,8 +39,8 @@ const char* egg_state_name(std::uint8_t state) {
 
 }  // namespace
 
-Observer::Observer(runtime::Node& node)
-    : node_(node), transforms_(node.transforms()), waiting_("map", kPatience, 200) {
+Observer::Observer(runtime::Node& node, const Watch& watch)
+    : node_(node), watch_(watch), transforms_(node.transforms()), waiting_("map", kPatience, 200) {
   node.subscribe<World>("world", Qos::kStateLatched,
                         [this](const World& world) { receive(world); });
   node.subscribe<GroundTruth>("ground_truth", Qos::kSensorStream,
@@ -50,6 +55,11 @@ Observer::Observer(runtime::Node& node)
                                   if (auto grid = conversions::from_msg(message))
                                     record_.costmap = std::move(grid->value);
                                 });
+  if (watch.pictures) {
+    node.subscribe<sensor_msgs::msg::Image>(
+        "camera/image", Qos::kSensorStream,
+        [this](const sensor_msgs::msg::Image& picture) { receive(picture); });
+  }
   node.every(kTrackPeriod, [this] { match_track(); });
 }
 
@@ -57,20 +67,47 @@ void Observer::receive(const World& world) {
   // The map's origin is where the robot stood when its mapping began: the start pose of the world.
   const auto start = conversions::pose3_from_msg(world.robot_start());
   if (!start || world_in_map_) return;
-  world_in_map_ = to_pose2(*start).inverse();
-  record_.eggs_in_world = static_cast<int>(world.eggs().size());
+  world_in_map_ = watch_.map_is_world ? Pose2{} : to_pose2(*start).inverse();
+  record_.eggs_in_world = static_cast<int>(world.eggs().size() + world.heaps().size());
 }
 
 void Observer::receive(const GroundTruth& truth) {
   record_.collisions = truth.collision_count();
-  record_.eggs_collected =
-      static_cast<int>(std::ranges::count(truth.eggs(), coop_msgs::msg::SimEgg_Constants::COLLECTED,
-                                          [](const SimEgg& egg) { return egg.state(); }));
+  record_.animal_collisions = truth.animal_collision_count();
+  const auto collected =
+      std::ranges::count(truth.eggs(), coop_msgs::msg::SimEgg_Constants::COLLECTED,
+                         [](const SimEgg& egg) { return egg.state(); });
+  const auto cleaned = std::ranges::count(truth.heaps(), coop_msgs::msg::SimHeap_Constants::CLEANED,
+                                          [](const SimHeap& heap) { return heap.state(); });
+  record_.eggs_collected = static_cast<int>(collected + cleaned);
   const auto stamp = conversions::from_msg(truth.header().stamp());
   const auto pose = conversions::pose3_from_msg(truth.robot());
   if (!stamp || !pose || *stamp < last_track_ + kTrackPeriod) return;
   last_track_ = *stamp;
   waiting_.push({*stamp, to_pose2(*pose)}, "base_link", *stamp);
+  note_pen(truth);
+}
+
+void Observer::note_pen(const GroundTruth& message) {
+  const auto truth = conversions::from_msg(message);
+  if (!truth || !world_in_map_) return;
+  record_.heaps = truth->heaps;
+  for (world::Heap& heap : record_.heaps) heap.position = *world_in_map_ * heap.position;
+  record_.animal_tracks.resize(truth->animals.size());
+  record_.animal_radii.clear();
+  for (std::size_t i = 0; i < truth->animals.size(); ++i) {
+    record_.animal_tracks[i].push_back(*world_in_map_ * truth->animals[i].position);
+    record_.animal_radii.push_back(truth->animals[i].radius);
+  }
+}
+
+void Observer::receive(const sensor_msgs::msg::Image& message) {
+  auto picture = conversions::from_msg(message);
+  if (!picture) return;
+  cv::Mat view;
+  cv::cvtColor(picture->pixels, view, cv::COLOR_RGB2BGR);
+  if (record_.first_view.empty()) record_.first_view = view;
+  record_.last_view = view;
 }
 
 void Observer::match_track() {
@@ -101,7 +138,9 @@ std::string Observer::progress() const {
   std::string line = record_.mission_state;
   if (!record_.mission_detail.empty()) line += ": " + record_.mission_detail;
   if (record_.eggs_in_world > 0 && !record_.eggs.empty()) {
-    line += fmt::format(" [eggs seen {}, collected {} of {}]", record_.eggs.size(),
+    const bool cleans = !record_.heaps.empty();
+    line += fmt::format(" [{} seen {}, {} {} of {}]", cleans ? "heaps" : "eggs",
+                        record_.eggs.size(), cleans ? "cleaned" : "collected",
                         record_.eggs_collected, record_.eggs_in_world);
   }
   return line;

@@ -6,7 +6,6 @@
 #include <iostream>
 
 #include "core/child_process.hpp"
-#include "demo/node/observer.hpp"
 #include "runtime/dds_transport.hpp"
 #include "runtime/stop_signal.hpp"
 
@@ -15,6 +14,7 @@ namespace {
 
 using Wall = std::chrono::steady_clock;
 constexpr auto kRound = std::chrono::milliseconds(50);
+constexpr int kStopped = 130;
 constexpr auto kRefresh = std::chrono::milliseconds(500);
 
 /// The line of progress.
@@ -85,7 +85,7 @@ PartResult run_part(const Part& part) {
   runtime::Options options;
   options.name = "demo";
   runtime::Node node(options, transport, clock, executor);
-  Observer observer(node);
+  Observer observer(node, part.watch);
 
   ChildProcess launcher(launcher_command(part), result.output);
   ProgressLine line(part.title);
@@ -101,6 +101,17 @@ PartResult run_part(const Part& part) {
   result.exit_code = launcher.wait();
   result.record = observer.record();
   return result;
+}
+
+int complain(const Part& part, const PartResult& result) {
+  if (result.stopped) {
+    std::cout << part.title << ": stopped\n";
+    return kStopped;
+  }
+  if (result.exit_code == 0) return 0;
+  std::cerr << fmt::format("demo: {} did not end (launcher's exit code {}); see {}\n", part.title,
+                           result.exit_code, result.output.string());
+  return 2;
 }
 
 }  // namespace coop::demo

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "demo/node/observer.hpp"
 #include "demo/record.hpp"
 
 namespace coop::demo {
@@ -18,6 +19,7 @@ struct Part {
   int domain = 0;
   std::uint64_t seed = 1;
   double timeout = 240.0;  ///< s of wall time
+  Watch watch;
 };
 
 struct PartResult {
@@ -30,5 +32,8 @@ struct PartResult {
 /// Shows progress on standard output while it runs: one line that changes on a terminal, a line a
 /// change elsewhere.
 [[nodiscard]] PartResult run_part(const Part& part);
+
+/// Says why a part did not come to its end, and the exit code for that; 0 where it did.
+[[nodiscard]] int complain(const Part& part, const PartResult& result);
 
 }  // namespace coop::demo

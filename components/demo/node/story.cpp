@@ -12,20 +12,6 @@
 namespace coop::demo {
 namespace {
 
-constexpr int kStopped = 130;
-
-/// Says why a part did not come to its end; 0 where it did.
-int complain(const Part& part, const PartResult& result) {
-  if (result.stopped) {
-    std::cout << part.title << ": stopped\n";
-    return kStopped;
-  }
-  if (result.exit_code == 0) return 0;
-  std::cerr << fmt::format("demo: {} did not end (launcher's exit code {}); see {}\n", part.title,
-                           result.exit_code, result.output.string());
-  return 2;
-}
-
 void print_result(const Record& record, const std::filesystem::path& folder) {
   const Figures f = compute_figures(record);
   std::cout << fmt::format(

@@ -30,16 +30,22 @@ constexpr std::size_t kGoalsKept = 20;
 constexpr auto kPoseAge = std::chrono::seconds(1);
 
 std::vector<Sighting> to_sightings(const std::vector<Detection>& detections,
-                                   const Pose3& camera_in_map) {
+                                   std::string_view class_id, const Pose3& camera_in_map) {
   std::vector<Sighting> sightings;
   for (const Detection& detection : detections) {
-    if (detection.class_id != "egg") continue;
+    if (detection.class_id != class_id) continue;
     const Eigen::Vector3d place = camera_in_map * detection.position;
     const Eigen::Matrix3d covariance =
         camera_in_map.linear() * detection.covariance * camera_in_map.linear().transpose();
     sightings.push_back({place.head<2>(), covariance.topLeftCorner<2, 2>(), detection.score});
   }
   return sightings;
+}
+
+/// A robot with a scraper cleans, one without collects.
+std::optional<Eigen::AlignedBox2d> scraper_of(const robot::RobotModel& robot) {
+  if (!robot.has_link(robot::kScraperLink)) return std::nullopt;
+  return robot.scraper();
 }
 
 }  // namespace
@@ -49,10 +55,15 @@ void SequencerNode::check(const Config& config) {
 }
 
 SequencerNode::SequencerNode(runtime::Node& node, const Config& config)
+    : SequencerNode(node, config, robot::RobotModel::load(config.robot)) {}
+
+SequencerNode::SequencerNode(runtime::Node& node, const Config& config,
+                             const robot::RobotModel& robot)
     : node_(node),
       config_(config),
-      sequencer_(config, Footprint(robot::RobotModel::load(config.robot).footprint()),
-                 node.random("ant_colony")),
+      cleans_(scraper_of(robot).has_value()),
+      sequencer_(config, Footprint(robot.footprint()), node.random("ant_colony"),
+                 scraper_of(robot)),
       journal_(node.options().run_dir / (node.name() + ".journal")),
       transforms_(node.transforms()),
       waiting_("map", kPatience, 50),
@@ -73,7 +84,7 @@ SequencerNode::SequencerNode(runtime::Node& node, const Config& config)
       "mission", Qos::kStateLatched,
       [this](const coop_msgs::msg::Mission& message) { receive_mission(message); });
   node.subscribe<vision_msgs::msg::Detection3DArray>(
-      "eggs", Qos::kEvent,
+      cleans_ ? "manure" : "eggs", Qos::kEvent,
       [this](const vision_msgs::msg::Detection3DArray& message) { receive_eggs(message); });
   node.subscribe<sensor_msgs::msg::CameraInfo>(
       "camera/camera_info", Qos::kSensorStream,
@@ -108,8 +119,9 @@ void SequencerNode::receive_mission(const coop_msgs::msg::Mission& message) {
   // The order is latched: after a restart it arrives again, and the journal knows that mission
   // already.
   if (message.mission_id() == mission.state().mission_id) return;
-  if (message.kind() > MissionConstants::SURVEY) {
-    node_.log().error("mission {}: kind {} is not known", message.mission_id(), message.kind());
+  if (!can_do(message.kind())) {
+    node_.log().error("mission {}: kind {} is not one for this robot", message.mission_id(),
+                      message.kind());
     return;
   }
   std::vector<Waypoint> waypoints;
@@ -124,6 +136,11 @@ void SequencerNode::receive_mission(const coop_msgs::msg::Mission& message) {
   if (waypoints.empty()) waypoints = config_.waypoint_list();
   mission.start(static_cast<MissionKind>(message.kind()), message.mission_id(),
                 std::move(waypoints));
+}
+
+bool SequencerNode::can_do(std::uint8_t kind) const {
+  if (kind == MissionConstants::SURVEY) return true;
+  return kind == (cleans_ ? MissionConstants::CLEAN : MissionConstants::COLLECT);
 }
 
 void SequencerNode::receive_eggs(const vision_msgs::msg::Detection3DArray& message) {
@@ -152,7 +169,9 @@ void SequencerNode::receive_navigation(const NavigationStatus& message) {
 void SequencerNode::look_at_sightings() {
   waiting_.process(transforms_, node_.now(),
                    [this](const Stamped<std::vector<Detection>>& seen, const Pose3& camera) {
-                     Picture picture{seen.stamp, to_sightings(seen.value, camera), {}};
+                     Picture picture{seen.stamp,
+                                     to_sightings(seen.value, cleans_ ? "manure" : "egg", camera),
+                                     {}};
                      if (camera_ && camera_->frame_id == seen.frame_id) {
                        picture.view = CameraView{camera, camera_->value};
                      }
@@ -163,7 +182,9 @@ void SequencerNode::look_at_sightings() {
 void SequencerNode::autostart() {
   const Mission& mission = sequencer_.mission();
   if (config_.autostart == "none" || !mission.state().mission_id.empty()) return;
-  const auto kind = config_.autostart == "survey" ? MissionKind::kSurvey : MissionKind::kCollect;
+  const auto kind = config_.autostart == "survey"  ? MissionKind::kSurvey
+                    : config_.autostart == "clean" ? MissionKind::kClean
+                                                   : MissionKind::kCollect;
   sequencer_.mission().start(kind, config_.autostart + "-1", config_.waypoint_list());
 }
 

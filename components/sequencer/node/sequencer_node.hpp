@@ -7,6 +7,7 @@
 #include "coop_msgs/msg/Pick.h"
 #include "core/detection.hpp"
 #include "core/intrinsics.hpp"
+#include "core/robot/robot_model.hpp"
 #include "core/stamped.hpp"
 #include "geometry_msgs/msg/PoseStamped.h"
 #include "runtime/node.hpp"
@@ -26,6 +27,9 @@ class SequencerNode {
   SequencerNode(runtime::Node& node, const Config& config);
 
  private:
+  SequencerNode(runtime::Node& node, const Config& config, const robot::RobotModel& robot);
+
+  [[nodiscard]] bool can_do(std::uint8_t kind) const;
   void receive_mission(const coop_msgs::msg::Mission& message);
   void receive_eggs(const vision_msgs::msg::Detection3DArray& message);
   void receive_navigation(const coop_msgs::msg::NavigationStatus& message);
@@ -37,6 +41,7 @@ class SequencerNode {
 
   runtime::Node& node_;
   Config config_;
+  bool cleans_;  ///< heaps of manure, instead of collecting eggs
   Sequencer sequencer_;
   Journal journal_;
   const TransformBuffer& transforms_;

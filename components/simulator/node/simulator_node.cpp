@@ -9,6 +9,7 @@
 #include "conversions/world.hpp"
 #include "core/config/config.hpp"
 #include "core/map/map_file.hpp"
+#include "simulator/placement.hpp"
 #include "simulator/world_description.hpp"
 
 namespace coop::simulator {
@@ -21,16 +22,20 @@ struct Scenery {
   WorldDescription description;
   RobotShape robot;
   world::World world;
+  std::vector<AnimalDescription> animals;
 };
 
 Scenery load(const SimulatorConfig& config, std::uint64_t seed) {
   Scenery scenery;
   scenery.robot = shape_of(robot::RobotModel::load(config.robot));
   scenery.description = config::Document::load(config.world).read<WorldDescription>();
-  const auto map_path = std::filesystem::path(config.world).parent_path() / scenery.description.map;
+  const auto map_path = config.map.empty() ? std::filesystem::path(config.world).parent_path() /
+                                                 scenery.description.map
+                                           : std::filesystem::path(config.map);
   scenery.description.map = std::filesystem::absolute(map_path).lexically_normal();
   scenery.world =
       build_world(scenery.description, map::load_map(scenery.description.map), scenery.robot, seed);
+  scenery.animals = place_animals(scenery.description, scenery.world, scenery.robot);
   return scenery;
 }
 
@@ -38,6 +43,7 @@ Scenery load(const SimulatorConfig& config, std::uint64_t seed) {
 
 void SimulatorConfig::describe(config::Fields& fields) {
   fields.text("world", world, {.help = "world file, *.world.yaml"});
+  fields.text("map", map, {.help = "map YAML in the place of the world's own; empty: that"});
   fields.text("robot", robot, {.help = "URDF of the robot"});
   fields.number("rate", rate,
                 {.unit = "s/s",
@@ -61,8 +67,7 @@ SimulatorNode::SimulatorNode(runtime::Node& node, const Config& config)
   Scenery scenery = load(config, node.options().seed);
   world_ = std::move(scenery.world);
   robot_ = std::move(scenery.robot);
-  simulation_ =
-      std::make_unique<Simulation>(config.simulation, robot_, world_, scenery.description.animals);
+  simulation_ = std::make_unique<Simulation>(config.simulation, robot_, world_, scenery.animals);
   open_journal(config);
 
   clock_ = node.advertise<rosgraph_msgs::msg::Clock>("clock", Qos::kEvent);

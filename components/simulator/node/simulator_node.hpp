@@ -21,6 +21,7 @@ namespace coop::simulator {
 struct SimulatorConfig {
   std::string world = "maps/duck_house.world.yaml";
   std::string robot = "config/robot/egg_collector.urdf";
+  std::string map;        ///< YAML of a map in the place of the world's own; empty: that one
   double rate = 1.0;      ///< simulated seconds a second; 0: as fast as possible
   double duration = 0.0;  ///< s of simulated time after which the simulation ends; 0: never
   std::string journal = "simulator.journal";  ///< in the run's folder; empty: none

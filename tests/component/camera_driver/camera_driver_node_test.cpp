@@ -175,6 +175,42 @@ TEST_F(CameraDriverNodeTest, one_that_started_late_sees_the_same) {
   EXPECT_EQ((*eggs_)[2], (*eggs_)[3]);
 }
 
+TEST(OverheadBackend, tells_of_pigs_and_manure_in_the_map) {
+  coop::test::ComponentFixture fixture;
+  coop::test::SimulatedWorld simulator(fixture);
+  CameraDriverConfig config;
+  config.backend = "overhead";
+  config.robot = std::string(COOP_SOURCE_DIR) + "/config/robot/pen_cleaner.urdf";
+  const auto animals = fixture.collect<Detection3DArray>("animals", Qos::kEvent);
+  const auto manure = fixture.collect<Detection3DArray>("manure", Qos::kEvent);
+  const auto pictures =
+      fixture.collect<sensor_msgs::msg::Image>("camera/image", Qos::kSensorStream);
+  fixture.add<CameraDriverNode>("camera_driver", config);
+  simulator.world = coop::test::room(50, 30);
+  simulator.scene.robot_in_world = {0.5, 0.5, 0.0};
+  simulator.scene.heaps = {{"heap", {3.0, 1.0}, 0.07, world::HeapState::kOnFloor}};
+  simulator.scene.animals = {{"pig", {2.0, 2.0}, {0, 0}, 0.25}};
+  simulator.publish_world();
+  simulator.publish_truth(1s);
+  ASSERT_EQ(manure->size(), 5U);
+  const auto heaps = conversions::from_msg(manure->back()).value();
+  EXPECT_EQ(heaps.frame_id, "map");
+  ASSERT_EQ(heaps.value.size(), 1U);
+  EXPECT_EQ(heaps.value[0].class_id, "manure");
+  EXPECT_NEAR(heaps.value[0].position.x(), 3.0, 0.02);
+  EXPECT_NEAR(heaps.value[0].position.y(), 1.0, 0.02);
+  const auto pigs = conversions::from_msg(animals->back()).value();
+  ASSERT_EQ(pigs.value.size(), 1U);
+  EXPECT_EQ(pigs.value[0].class_id, "pig");
+  EXPECT_NEAR(pigs.value[0].position.x(), 2.0, 0.06);
+  ASSERT_FALSE(pictures->empty());
+  EXPECT_EQ(pictures->back().header().frame_id(), "overhead_camera_optical_frame");
+
+  simulator.scene.heaps[0].state = world::HeapState::kCleaned;
+  simulator.publish_truth(1s);
+  EXPECT_TRUE(conversions::from_msg(manure->back()).value().value.empty()) << "it says so";
+}
+
 TEST(FilesBackend, shows_each_picture_of_a_folder_with_its_eggs_and_ends) {
   const coop::test::TemporaryFolder folder;
   cv::Mat picture(400, 800, CV_8UC3, cv::Scalar(90, 90, 90));

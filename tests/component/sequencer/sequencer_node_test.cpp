@@ -281,6 +281,75 @@ TEST_F(SequencerNodeTest, AMissionOfAnUnknownKindIsRefused) {
   EXPECT_TRUE(goals_->empty());
 }
 
+/// The same hall for a robot that cleans.
+class CleaningNodeTest : public SequencerNodeTest {
+ protected:
+  CleaningNodeTest() {
+    config_.robot = std::string(COOP_SOURCE_DIR) + "/config/robot/pen_cleaner.urdf";
+    config_.autostart = "clean";
+    config_.waypoints.clear();
+    manure_ =
+        fixture_.tester().advertise<vision_msgs::msg::Detection3DArray>("manure", Qos::kEvent);
+  }
+  /// Pictures with a heap at (9, 6), in map.
+  void see_heap() {
+    for (int i = 0; i < 12; ++i) {
+      Detection heap;
+      heap.class_id = "manure";
+      heap.score = 1.0;
+      heap.position = {9.0, 6.0, 0.0};
+      heap.covariance = Eigen::Matrix3d::Identity() * 1e-4;
+      manure_.publish(
+          conversions::to_msg(Stamped<std::vector<Detection>>{fixture_.now(), "map", {heap}}));
+      live(200ms);
+    }
+  }
+  runtime::Publisher<vision_msgs::msg::Detection3DArray> manure_;
+};
+
+TEST_F(CleaningNodeTest, AHeapSeenFromAboveIsDrivenOverAndAccountedForWithoutAnArm) {
+  start();
+  publish_costmap();
+  see_heap();
+  ASSERT_FALSE(goals_->empty());
+  const Pose2 goal = conversions::from_msg(goals_->back())->value;
+  EXPECT_NEAR((goal.position() - Eigen::Vector2d(9.0, 6.0)).norm(), 0.41 - 0.05, 0.02)
+      << "the blade ends beyond the heap";
+  for (double back = 0.5; back >= 0.0; back -= 0.05) {
+    robot_ = goal * Pose2{-back, 0.0, 0.0};
+    live(100ms);
+  }
+  ASSERT_EQ(status_->back().eggs().size(), 1U);
+  EXPECT_EQ(status_->back().eggs()[0].state(), coop_msgs::msg::EggStatus_Constants::PICKED);
+  EXPECT_EQ(status_->back().kind(), coop_msgs::msg::Mission_Constants::CLEAN);
+  EXPECT_TRUE(picks_->empty());
+}
+
+TEST_F(CleaningNodeTest, KilledOnTheWayItGoesOnToTheSameHeap) {
+  start();
+  publish_costmap();
+  see_heap();
+  ASSERT_EQ(status_->back().current_egg(), "heap1");
+  fixture_.remove("sequencer", true);
+  start();
+  live(3s);
+  EXPECT_EQ(status_->back().current_egg(), "heap1");
+  EXPECT_EQ(status_->back().eggs().size(), 1U);
+}
+
+TEST_F(CleaningNodeTest, AnOrderToCollectIsRefusedByARobotThatCleans) {
+  config_.autostart = "none";
+  start();
+  publish_costmap();
+  coop_msgs::msg::Mission order;
+  order.mission_id("eggs");
+  order.kind(coop_msgs::msg::Mission_Constants::COLLECT);
+  auto orders = fixture_.tester().advertise<coop_msgs::msg::Mission>("mission", Qos::kStateLatched);
+  orders.publish(order);
+  live(1s);
+  EXPECT_EQ(status_->back().state(), StatusConstants::IDLE);
+}
+
 TEST(SequencerConfigTest, ARobotIsRequired) {
   SequencerConfig config;
   config.robot = "no/such/robot.urdf";

@@ -56,6 +56,12 @@ int MissionWatch::eggs_collected() const {
                                              [](const auto& egg) { return egg.state(); }));
 }
 
+int MissionWatch::heaps_cleaned() const {
+  return static_cast<int>(std::ranges::count(truth_.heaps(),
+                                             coop_msgs::msg::SimHeap_Constants::CLEANED,
+                                             [](const auto& heap) { return heap.state(); }));
+}
+
 bool MissionWatch::is_done() const {
   return mission_.state() == coop_msgs::msg::MissionStatus_Constants::DONE;
 }

@@ -20,6 +20,7 @@ class MissionWatch {
   [[nodiscard]] const coop_msgs::msg::GroundTruth& truth() const { return truth_; }
   [[nodiscard]] int eggs_picked() const;     ///< as the mission tells
   [[nodiscard]] int eggs_collected() const;  ///< as the simulated world has it
+  [[nodiscard]] int heaps_cleaned() const;   ///< as the simulated world has it
   [[nodiscard]] bool is_done() const;
   [[nodiscard]] int eggs_missing() const;  ///< as the mission tells
 

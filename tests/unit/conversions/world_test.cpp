@@ -16,8 +16,10 @@ world::GroundTruth truth() {
           .steering_angle = 0.2,
           .in_collision = true,
           .collision_count = 3,
+          .animal_collision_count = 2,
           .eggs = {{"egg1", {4, 5, 0.02}, world::EggState::kCollected}},
-          .animals = {{"duck", {6, 7}, {0.1, -0.2}, 0.15}}};
+          .animals = {{"duck", {6, 7}, {0.1, -0.2}, 0.15}},
+          .heaps = {{"heap1", {2, 3}, 0.07, world::HeapState::kCleaned}}};
 }
 
 world::World small_world() {
@@ -26,6 +28,7 @@ world::World small_world() {
   world.grid = OccupancyGrid({2, 2, 0.05, {0, 0}}, kFree);
   world.eggs = {{"egg1", {4, 5, 0.02}, world::EggState::kOnFloor}};
   world.robot_start = {1, 1, 0};
+  world.heaps = {{"heap1", {2, 3}, 0.07, world::HeapState::kOnFloor}};
   world.seed = 0xffff'ffff'ffff'fff1;
   return world;
 }
@@ -43,8 +46,10 @@ TEST(WorldConversion, the_truth_survives_the_round_trip) {
   EXPECT_EQ(back->steering_angle, 0.2);
   EXPECT_TRUE(back->in_collision);
   EXPECT_EQ(back->collision_count, 3U);
+  EXPECT_EQ(back->animal_collision_count, 2U);
   EXPECT_EQ(back->eggs, truth().eggs);
   EXPECT_EQ(back->animals, truth().animals);
+  EXPECT_EQ(back->heaps, truth().heaps);
 }
 
 TEST(WorldConversion, the_world_survives_the_round_trip) {
@@ -53,6 +58,7 @@ TEST(WorldConversion, the_world_survives_the_round_trip) {
   EXPECT_EQ(back->map_path, "house.yaml");
   EXPECT_EQ(back->grid, small_world().grid);
   EXPECT_EQ(back->eggs, small_world().eggs);
+  EXPECT_EQ(back->heaps, small_world().heaps);
   EXPECT_EQ(back->robot_start, small_world().robot_start);
   EXPECT_EQ(back->seed, small_world().seed);
 }

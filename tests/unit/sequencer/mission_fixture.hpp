@@ -68,12 +68,13 @@ class MissionTest : public ::testing::Test {
     snapshot.navigation = navigation_;
     snapshot.pick = pick_;
     snapshot.tracks = &tracks_;
+    snapshot.pictures = pictures_;
     const MissionActions actions = mission_.step(snapshot, queries_, now_);
     if (actions.goal) goals_.push_back(*actions.goal);
     if (actions.pick) picks_.push_back(*actions.pick);
     if (actions.take_back) taken_back_.push_back(*actions.take_back);
-    if (actions.picked_egg) {
-      for (EggTrack& track : tracks_) track.picked |= track.id == *actions.picked_egg;
+    for (EggTrack& track : tracks_) {
+      track.picked |= std::ranges::count(actions.picked_eggs, track.id) > 0;
     }
     return actions;
   }
@@ -108,6 +109,7 @@ class MissionTest : public ::testing::Test {
   std::optional<NavigationReport> navigation_;
   std::optional<PickReport> pick_;
   std::vector<EggTrack> tracks_;
+  int pictures_ = 0;
   std::vector<GoalOrder> goals_;
   std::vector<PickOrder> picks_;
   std::vector<std::string> taken_back_;

@@ -177,9 +177,9 @@ class MissionOrdersTest : public test::MissionTest {
       drive();
       const MissionPhase before = mission_.state().phase;
       const MissionActions actions = step(0.3);
-      if (actions.picked_egg) {
-        ASSERT_TRUE(reported_.insert(*actions.picked_egg).second) << "picked twice";
-        ASSERT_TRUE(in_basket_.contains(*actions.picked_egg));
+      for (const std::string& id : actions.picked_eggs) {
+        ASSERT_TRUE(reported_.insert(id).second) << "picked twice";
+        ASSERT_TRUE(in_basket_.contains(id));
       }
       if (before == MissionPhase::kOrdering && mission_.state().phase == MissionPhase::kDriving) {
         check_order();
@@ -241,7 +241,7 @@ TEST_F(MissionOrdersTest, AnAnswerThatComesLateCountsAllTheSame) {
   ASSERT_EQ(mission_.state().eggs[0].phase, EggPhase::kQueued) << "given up";
   step_until_phase(MissionPhase::kDriving);
   pick_ = PickReport{pick_id, true, true, ""};
-  EXPECT_EQ(step().picked_egg, "egg1");
+  EXPECT_EQ(step().picked_eggs, std::vector<std::string>{"egg1"});
   EXPECT_EQ(mission_.state().eggs[0].phase, EggPhase::kPicked);
   step_until_phase(MissionPhase::kDone);
 }

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <unordered_set>
 
-#include "sequencer/mission.hpp"
+#include "sequencer/mission_rules.hpp"
 
-// The part of the mission that is about one egg: order, approach, look, pick.
+// The part of the mission that is about its targets, eggs or heaps of manure: order and approach.
 namespace coop::sequencer {
 namespace {
 
@@ -20,7 +20,7 @@ constexpr double kMoved = 0.3;
 
 /// Confirmed tracks become eggs of the mission; positions follow the tracks until the pick.
 void Mission::adopt_eggs(const MissionSnapshot& snapshot) {
-  if (state_.kind != MissionKind::kCollect || snapshot.tracks == nullptr) return;
+  if (rules().target.empty() || snapshot.tracks == nullptr) return;
   std::size_t after = 0;  // eggs stand in the order of their tracks, but for a few
   for (const EggTrack& track : *snapshot.tracks) {
     if (!track.confirmed || track.picked) continue;
@@ -47,35 +47,21 @@ void Mission::adopt_eggs(const MissionSnapshot& snapshot) {
   }
 }
 
-/// Nothing is left to do, unless the camera finds in a moment what the arm lost.
-void Mission::end_or_search_again(Time now) {
-  take_goal_back(now);
-  if (!last_look_) last_look_ = now;
-  const bool any_picked = state_.count(EggPhase::kPicked) > 0;
-  if (any_picked && now - *last_look_ < seconds(config_.last_look)) return;
-  last_look_.reset();
-  if (wants_another_search()) {
-    search_again();
-  } else if (config_.return_home) {
-    enter(MissionPhase::kReturning, "home");
-  } else {
-    finish();
-  }
-}
-
 void Mission::step_ordering(const MissionSnapshot& snapshot, const MapQueries& queries, Time now) {
   std::vector<const EggTask*> open;
-  std::vector<const EggTask*> unseen;  // later: whoever sat on the egg may have gone by then
+  std::vector<const EggTask*> put_off;  // later: whoever was in the way may have gone by then
   for (const EggTask& egg : state_.eggs) {
     if (egg.phase == EggPhase::kPicked || egg.phase == EggPhase::kFailed ||
         egg.phase == EggPhase::kMissing) {
       continue;
     }
-    (egg.unseen > 0 ? unseen : open).push_back(&egg);
+    (rules().is_put_off(egg) ? put_off : open).push_back(&egg);
   }
-  if (open.empty()) open.swap(unseen);
   state_.current_egg.clear();
-  if (open.empty()) return end_or_search_again(now);
+  if (!open.empty()) waiting_since_.reset();
+  if (open.empty() && (this->*rules().waits)(put_off, now)) return take_goal_back(now);
+  if (open.empty()) open.swap(put_off);
+  if (open.empty()) return (this->*rules().nothing_left)(now);
   last_look_.reset();
   const OrderedEggs ordered = queries.order(*snapshot.robot_in_map, open);
   if (ordered.order.empty()) return take_goal_back(now);  // no map yet
@@ -92,7 +78,7 @@ void Mission::step_ordering(const MissionSnapshot& snapshot, const MapQueries& q
     state_.tour_cost_alternative = ordered.alternative_cost;
   }
   state_.order.insert(state_.order.end(), ordered.order.begin(), ordered.order.end());
-  for (const EggTask* egg : unseen) state_.order.push_back(egg->id);
+  for (const EggTask* egg : put_off) state_.order.push_back(egg->id);
   state_.current_egg = ordered.order.front();
   arrived_.reset();
   refusals_ = 0;
@@ -112,7 +98,7 @@ void Mission::begin_approach(const MissionSnapshot& snapshot, const MapQueries& 
   if (refusals_ == 0) egg.attempts += 1;
   changed_ = true;
   if (!pose) {
-    attempt_failed(egg, "no free pose around the egg");
+    attempt_failed(egg, fmt::format("no free pose around the {}", rules().target));
     return;
   }
   egg.phase = EggPhase::kApproaching;
@@ -158,11 +144,11 @@ void Mission::step_approach(const MissionSnapshot& snapshot, const MapQueries& q
     return;
   }
   if (arrived_) {
-    step_arrival(snapshot, now);
+    (this->*rules().at_target)(snapshot, now);
     return;
   }
   const NavigationReport result = drive_result(snapshot, now);
-  if (pictures_without(snapshot, *egg) >= config_.unseen_after) return egg_not_seen(*egg);
+  if ((this->*rules().on_the_way)(snapshot, *egg)) return;
   switch (result.state) {
     case NavigationReport::State::kUnderWay:
       refresh_goal(snapshot, *egg, queries);
@@ -175,108 +161,6 @@ void Mission::step_approach(const MissionSnapshot& snapshot, const MapQueries& q
     case NavigationReport::State::kFailed:
       if (!try_another_side(snapshot, *egg)) attempt_failed(*egg, result.reason);
       break;
-  }
-}
-
-void Mission::step_arrival(const MissionSnapshot& snapshot, Time now) {
-  EggTask& egg = *state_.find_egg(state_.current_egg);
-  const int without = pictures_without(snapshot, egg);
-  if (without >= config_.unseen_after) return egg_not_seen(egg);
-  const Duration standing = now - *arrived_;
-  if (standing < seconds(config_.settle_time)) return;
-  if (without > 0 && standing < seconds(config_.look_time)) return;  // the pictures disagree
-  if (!is_within_reach(*snapshot.robot_in_map, egg.egg_in_map, approach_)) {
-    const Eigen::Vector2d egg_in_base = snapshot.robot_in_map->inverse() * egg.egg_in_map;
-    attempt_failed(egg, fmt::format("egg at ({:.2f}, {:.2f}) m on arrival, out of reach",
-                                    egg_in_base.x(), egg_in_base.y()));
-    return;
-  }
-  drive_.reset();
-  arrived_.reset();
-  egg.phase = EggPhase::kPicking;
-  state_.pick_id = fmt::format("{}/{}/{}", state_.mission_id, egg.id, egg.attempts);
-  changed_ = true;
-  enter(MissionPhase::kPicking, egg.id);
-}
-
-void Mission::step_picking(const MissionSnapshot& snapshot, Time now) {
-  EggTask* egg = state_.find_egg(state_.current_egg);
-  if (egg == nullptr || state_.pick_id.empty()) {
-    enter(MissionPhase::kOrdering, "pick lost");
-    return;
-  }
-  if (!pick_begun_) {
-    pick_begun_ = now;
-    pick_told_ = Time{};
-  }
-  const bool answered =
-      snapshot.pick && snapshot.pick->pick_id == state_.pick_id && snapshot.pick->is_final;
-  if (answered && snapshot.pick->picked) {
-    egg_picked(*egg);
-    state_.pick_id.clear();
-    pick_begun_.reset();
-    enter(MissionPhase::kOrdering, egg->id + " picked");
-    return;
-  }
-  if (answered || now - *pick_begun_ > seconds(config_.pick_timeout)) {
-    state_.pick_id.clear();
-    pick_begun_.reset();
-    attempt_failed(*egg, answered ? snapshot.pick->reason : "the arm does not answer");
-    return;
-  }
-  if (now - pick_told_ >= seconds(config_.pick_repeat)) {
-    pick_told_ = now;
-    actions_.pick = PickOrder{state_.pick_id, egg->id, egg->egg_in_map};
-  }
-}
-
-void Mission::egg_picked(EggTask& egg) {
-  egg.phase = EggPhase::kPicked;
-  egg.reason.clear();
-  actions_.picked_egg = egg.id;
-  changed_ = true;
-}
-
-/// The arm's answer to a pick that was given up: the egg is in the basket all the same.
-void Mission::note_late_pick(const MissionSnapshot& snapshot) {
-  if (!snapshot.pick || !snapshot.pick->picked || !snapshot.pick->is_final) return;
-  const std::string& pick_id = snapshot.pick->pick_id;
-  const std::string ours = state_.mission_id + "/";
-  if (pick_id == state_.pick_id || !pick_id.starts_with(ours)) return;
-  const std::string_view rest = std::string_view(pick_id).substr(ours.size());
-  EggTask* egg = state_.find_egg(rest.substr(0, rest.rfind('/')));
-  if (egg == nullptr || egg->phase == EggPhase::kPicked) return;
-  egg_picked(*egg);
-  if (state_.current_egg != egg->id) return;
-  drive_.reset();
-  arrived_.reset();
-  refusals_ = 0;
-  state_.pick_id.clear();
-  pick_begun_.reset();
-  if (state_.phase == MissionPhase::kPaused) {
-    state_.resume_phase = MissionPhase::kOrdering;
-  } else {
-    enter(MissionPhase::kOrdering, egg->id + " picked after all");
-  }
-}
-
-int Mission::pictures_without(const MissionSnapshot& snapshot, const EggTask& egg) {
-  if (snapshot.tracks == nullptr) return 0;
-  const auto track = std::ranges::find(*snapshot.tracks, egg.id, &EggTrack::id);
-  if (track == snapshot.tracks->end()) return 0;
-  const bool is_near =
-      arrived_ || distance(*snapshot.robot_in_map, drive_->goal.pose_in_map) < config_.look_from;
-  unseen_before_ = is_near ? std::min(unseen_before_, track->unseen_in_row) : track->unseen_in_row;
-  return track->unseen_in_row - unseen_before_;
-}
-
-/// Never picked blindly and never dropped: looked for once more from another side, then reported.
-void Mission::egg_not_seen(EggTask& egg) {
-  egg.unseen += 1;
-  attempt_failed(
-      egg, fmt::format("not there: {} pictures of its place without it", config_.unseen_after));
-  if (egg.unseen >= config_.max_looks || egg.phase == EggPhase::kFailed) {
-    egg.phase = EggPhase::kMissing;
   }
 }
 
