@@ -27,7 +27,9 @@ OccupancyGrid pig_house(int pen) {
   const Eigen::Vector2d corner = -Eigen::Vector2d(kWall, kWall) - corner_of(pen);
   const Eigen::Vector2d margin(kMargin, kMargin);
   const Eigen::Vector2d whole = size + 2 * margin;
-  Drawing house(whole.x(), whole.y(), 0.05, corner - margin);
+  // Whole cells of 1/20 m, so that the origin is the number that the file says.
+  const Eigen::Vector2d origin = (20.0 * (corner - margin)).array().round() / 20.0;
+  Drawing house(whole.x(), whole.y(), 0.05, origin);
   house.box(corner, corner + size);
   for (int other = 1; other <= kPens; ++other) {
     const Eigen::Vector2d low = corner_of(other) - corner_of(pen);
