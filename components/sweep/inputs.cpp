@@ -151,7 +151,7 @@ Inputs find_inputs(const SweepConfig& config, const Places& places) {
 
 std::string to_text(const Inputs& inputs) {
   std::string text;
-  for (const auto& [name, hash] : inputs) text += hash + "  " + name + "\n";
+  for (const auto& [name, hash] : inputs) text.append(hash).append("  ").append(name).append("\n");
   return text;
 }
 
