@@ -23,6 +23,7 @@ void PlanningMapConfig::describe(config::Fields& fields) {
        .max = 1});
   fields.section("inflation", inflation);
   fields.section("obstacles", obstacles);
+  fields.section("animals", animals);
 }
 
 PlanningMap::PlanningMap(const PlanningMapConfig& config, const Footprint& footprint,
@@ -30,6 +31,7 @@ PlanningMap::PlanningMap(const PlanningMapConfig& config, const Footprint& footp
     : config_(config),
       footprint_(footprint),
       obstacle_layer_(config.obstacles),
+      animal_layer_(config.animals),
       costmap_(config.inflation, footprint.half_width() + padding, reach) {}
 
 void PlanningMap::set_map(const OccupancyGrid& map) {
@@ -87,6 +89,7 @@ bool PlanningMap::update(Time now, const std::optional<Pose2>& robot_in_map) {
                                                               spot.center_in_map) > -kUnderRobot;
     if (!under_robot) mark_spot(spot, obstacles);
   }
+  animal_layer_.mark(map_.geometry, now, robot_in_map, footprint_, obstacles);
   if (!map_changed_ &&
       std::equal(obstacles.begin(), obstacles.end(), marked_.begin(), marked_.end())) {
     return false;

@@ -14,6 +14,7 @@
 #include "core/grid.hpp"
 #include "core/scan.hpp"
 #include "core/time.hpp"
+#include "global_planner/animal_layer.hpp"
 
 namespace coop::global_planner {
 
@@ -23,13 +24,14 @@ struct PlanningMapConfig {
       0.10;  ///< m: what the laser sees this close to an obstacle of the map is that obstacle
   InflationConfig inflation{};
   ObstacleLayerConfig obstacles{};
+  AnimalLayerConfig animals{};
 
   void describe(config::Fields& fields);
 };
 
 /// The global costmap, in the map's frame, out of three layers as in the egg paper's section 2.2.1:
 /// the static map, what the laser sees beyond it (raytraced marking and clearing), and inflation;
-/// and round spots to keep clear of (eggs).
+/// and round spots to keep clear of (eggs), and animals where they are about to go.
 ///
 /// The inscribed zone reaches to the half width of the padded footprint, not to the largest disc
 /// about base_link, which at the rear axle is smaller: whoever drives along a path needs the half
@@ -47,6 +49,7 @@ class PlanningMap {
   void integrate(const LaserScan& scan, const ObstacleLayer::ScanPose& pose);
 
   void set_spots(std::vector<Spot> spots);
+  [[nodiscard]] AnimalLayer& animals() { return animal_layer_; }
 
   /// Brings costs and distances up to date. Whether anything changed. Spots under the robot, where
   /// it is known, are left out: it stands there, so nothing is, or it is too late.
@@ -64,6 +67,7 @@ class PlanningMap {
   std::vector<std::uint8_t> static_obstacles_;
   DistanceField static_distances_;
   ObstacleLayer obstacle_layer_;
+  AnimalLayer animal_layer_;
   std::vector<Spot> spots_;
   Costmap costmap_;
   std::vector<std::uint8_t> marked_;  ///< obstacles now, to tell whether they changed

@@ -18,7 +18,7 @@ constexpr std::string_view kMaster = "master of time";
 constexpr auto kTopics = std::to_array<TopicInfo>({
     {"amcl_pose", "geometry_msgs/PoseWithCovarianceStamped", kLatched, 0, "amcl", "person",
      "pose in map with covariance, at every update of the filter"},
-    {"animals", "vision_msgs/Detection3DArray", kEvent, 5, "camera_driver", "person",
+    {"animals", "vision_msgs/Detection3DArray", kEvent, 5, "camera_driver", "global_planner",
      "animals that an overhead camera found in one picture, in map; an empty list says none"},
     {"camera/camera_info", "sensor_msgs/CameraInfo", kStream, 5, "camera_driver",
      "sequencer, person", "calibration of the picture of the same stamp"},
@@ -43,9 +43,7 @@ constexpr auto kTopics = std::to_array<TopicInfo>({
      "localise from scratch"},
     {"goal_pose", "geometry_msgs/PoseStamped", kEvent, 0, "person, sequencer",
      "global_planner, referee",
-     "where base_link is to go, named by its stamp; an empty frame takes the goal of that stamp "
-     "back, "
-     "and without a stamp whichever is in force"},
+     "where base_link is to go, named by its stamp; no frame: taken back"},
     {"gripper", "coop_msgs/GripperState", kStream, 50, "arm_driver", "simulator",
      "suction, vacuum and the pose of the cup"},
     {"ground_truth", "coop_msgs/GroundTruth", kStream, 50, "simulator",
@@ -67,8 +65,7 @@ constexpr auto kTopics = std::to_array<TopicInfo>({
     {"lockstep_tick", "coop_msgs/LockstepTick", kEvent, 0, kMaster, "all",
      "lockstep: run this tick; each component has a topic of its own, lockstep_tick/NAME"},
     {"manure", "vision_msgs/Detection3DArray", kEvent, 5, "camera_driver", "sequencer",
-     "heaps of manure that an overhead camera found in one picture, in map; an empty list says "
-     "none"},
+     "heaps of manure in one picture of an overhead camera, in map; an empty list says none"},
     {"map", "nav_msgs/OccupancyGrid", kLatched, 0, "amcl, slam", "dwa, global_planner, person",
      "the map being made, or the map served"},
     {"mission", "coop_msgs/Mission", kLatched, 0, "person", "sequencer",
@@ -85,8 +82,7 @@ constexpr auto kTopics = std::to_array<TopicInfo>({
     {"pick_result", "coop_msgs/PickResult", kEvent, 0, "arm_driver", "sequencer",
      "how a pick ended"},
     {"plan", "nav_msgs/Path", kLatched, 0, "global_planner", "dwa", "path to the goal, in map"},
-    {"robot_description", "std_msgs/String", kLatched, 0, "arm_driver", "person",
-     "the robot's URDF"},
+    {"robot_description", "std_msgs/String", kLatched, 0, "arm_driver", "person", "the URDF"},
     {"save_map", "coop_msgs/SaveMap", kEvent, 0, "person", "slam", "write the map to disk"},
     {"save_map_result", "coop_msgs/SaveMapResult", kEvent, 0, "slam", "person",
      "where the map was written"},

@@ -1,5 +1,6 @@
 #include "global_planner/node/global_planner_node.hpp"
 
+#include "conversions/detections.hpp"
 #include "conversions/geometry.hpp"
 #include "conversions/mission.hpp"
 #include "conversions/navigation.hpp"
@@ -101,6 +102,10 @@ GlobalPlannerNode::GlobalPlannerNode(runtime::Node& node, const Config& config)
       "mission_status", Qos::kStateLatched, [this](const coop_msgs::msg::MissionStatus& message) {
         planner_.map().set_spots(conversions::uncollected_eggs(message, config_.egg_radius));
       });
+  node.subscribe<vision_msgs::msg::Detection3DArray>(
+      "animals", Qos::kEvent,
+      [this](const vision_msgs::msg::Detection3DArray& message) { receive_animals(message); },
+      runtime::Attention::kPatient);
   node.every(kUpdatePeriod, [this] { update(); });
   publish_status();
 }
@@ -136,6 +141,17 @@ void GlobalPlannerNode::take_back_goal(const geometry_msgs::msg::PoseStamped& me
   if (!planner_.cancel(any ? "" : std::to_string(to_nanoseconds(*stamp)))) return;
   if (!any) goal_stamp_ = *stamp;
   node_.log().info("goal {} taken back", to_nanoseconds(goal_stamp_));
+}
+
+void GlobalPlannerNode::receive_animals(const vision_msgs::msg::Detection3DArray& message) {
+  const auto animals = conversions::from_msg(message);
+  if (!animals || animals->frame_id != "map") {
+    node_.log().warning(
+        "animals refused: {}",
+        animals ? "their frame is '" + animals->frame_id + "', not map" : animals.error());
+    return;
+  }
+  planner_.map().animals().see(animals->value, animals->stamp);
 }
 
 void GlobalPlannerNode::receive_driver(const NavigationStatus& message) {

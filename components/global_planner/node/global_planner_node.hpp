@@ -10,6 +10,7 @@
 #include "nav_msgs/msg/Path.h"
 #include "runtime/node.hpp"
 #include "runtime/stamped_queue.hpp"
+#include "vision_msgs/msg/Detection3DArray.h"
 
 namespace coop::global_planner {
 
@@ -35,6 +36,7 @@ class GlobalPlannerNode {
  private:
   void receive_goal(const geometry_msgs::msg::PoseStamped& message);
   void take_back_goal(const geometry_msgs::msg::PoseStamped& message);
+  void receive_animals(const vision_msgs::msg::Detection3DArray& message);
   void receive_driver(const coop_msgs::msg::NavigationStatus& message);
   void integrate_scans();
   void update();

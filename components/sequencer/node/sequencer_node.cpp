@@ -83,9 +83,10 @@ SequencerNode::SequencerNode(runtime::Node& node, const Config& config,
   node.subscribe<coop_msgs::msg::Mission>(
       "mission", Qos::kStateLatched,
       [this](const coop_msgs::msg::Mission& message) { receive_mission(message); });
-  node.subscribe<vision_msgs::msg::Detection3DArray>(
-      cleans_ ? "manure" : "eggs", Qos::kEvent,
-      [this](const vision_msgs::msg::Detection3DArray& message) { receive_eggs(message); });
+  using Detections = vision_msgs::msg::Detection3DArray;
+  const auto see = [this](const Detections& message) { receive_eggs(message); };
+  if (cleans_) node.subscribe<Detections>("manure", Qos::kEvent, see);
+  if (!cleans_) node.subscribe<Detections>("eggs", Qos::kEvent, see);
   node.subscribe<sensor_msgs::msg::CameraInfo>(
       "camera/camera_info", Qos::kSensorStream,
       [this](const sensor_msgs::msg::CameraInfo& message) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "conversions/detections.hpp"
 #include "conversions/geometry.hpp"
 #include "conversions/navigation.hpp"
 #include "core/config/error.hpp"
@@ -192,6 +193,29 @@ TEST(GlobalPlannerNodeCheck, RefusesARobotThatIsNotThere) {
   GlobalPlannerNodeConfig config;
   config.robot = "no/such.urdf";
   EXPECT_ANY_THROW(GlobalPlannerNode::check(config));
+}
+
+TEST_F(GlobalPlannerNodeTest, AnAnimalOnTheWayIsPlannedAround) {
+  auto animals =
+      fixture_.tester().advertise<vision_msgs::msg::Detection3DArray>("animals", Qos::kEvent);
+  publish_map();
+  stand(kStart, 3);
+  Detection pig;
+  pig.class_id = "pig";
+  pig.position = {2.6, 2.5, 0.2};
+  pig.size = {0.3, 0.3, 0.4};
+  animals.publish(
+      conversions::to_msg(Stamped<std::vector<Detection>>{fixture_.now(), "map", {pig}}));
+  animals.publish(conversions::to_msg(
+      Stamped<std::vector<Detection>>{fixture_.now() + 1ms, "odom", {}}));  // refused
+  send_goal(kGoal);
+  stand(kStart, 3);
+  ASSERT_FALSE(plans_->empty());
+  double widest = 0.0;
+  for (const auto& pose : plans_->back().poses()) {
+    widest = std::max(widest, std::abs(pose.pose().position().y() - 2.5));
+  }
+  EXPECT_GT(widest, 0.3);
 }
 
 }  // namespace

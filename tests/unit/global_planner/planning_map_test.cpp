@@ -108,5 +108,17 @@ TEST(PlanningMap, KeepsWhatTheLaserSawWhenTheMapGrows) {
   EXPECT_EQ(cost_at(map, 3.03, 2.52), kLethalCost);
 }
 
+TEST(PlanningMap, AnAnimalIsAnObstacleForAsLongAsItIsSeen) {
+  PlanningMap map = make_map();
+  Detection pig;
+  pig.position = {3.0, 2.5, 0.2};
+  pig.size = {0.4, 0.4, 0.4};
+  map.animals().see({pig}, time_from_seconds(1.0));
+  EXPECT_TRUE(map.update(time_from_seconds(1.0)));
+  EXPECT_EQ(cost_at(map, 3.0, 2.5), kLethalCost);
+  EXPECT_TRUE(map.update(time_from_seconds(3.0)));
+  EXPECT_EQ(cost_at(map, 3.0, 2.5), kFreeCost);
+}
+
 }  // namespace
 }  // namespace coop::global_planner
