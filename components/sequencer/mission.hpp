@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "core/config/fields.hpp"
@@ -199,9 +200,10 @@ class Mission {
   Time taken_back_{};  ///< when the goal was taken back last
   std::optional<Time> pick_begun_;
   Time pick_told_{};
-  std::optional<Time> waiting_since_;   ///< until what failed is tried again
-  std::optional<int> pictures_before_;  ///< the look at the pen
-  std::optional<Pose2> observed_from_;  ///< where the robot was at the last step
+  std::optional<Time> waiting_since_;               ///< until what failed is tried again
+  std::optional<int> pictures_before_;              ///< the look at the pen
+  std::optional<Pose2> observed_from_;              ///< where the robot was at the last step
+  std::unordered_set<std::string> ahead_of_blade_;  ///< heaps, at the last step
   bool is_home_ = false;
   bool changed_ = false;
 };

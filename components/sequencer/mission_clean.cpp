@@ -33,14 +33,20 @@ void Mission::order_heaps(const MissionSnapshot& snapshot) {
 void Mission::note_swept(const MissionSnapshot& snapshot) {
   const Pose2 robot = *snapshot.robot_in_map;
   const Pose2 before = std::exchange(observed_from_, robot).value_or(robot);
-  if (!scraper_ || distance(before, robot) > kJump) return;
-  const double blade = scraper_->center().x();
+  if (!scraper_) return;
+  if (distance(before, robot) > kJump) ahead_of_blade_.clear();
+  const bool forwards = (before.inverse() * robot).x > 0.0;
   const double half_width = 0.5 * scraper_->sizes().y() - config_.sweep_margin;
   for (EggTask& heap : state_.eggs) {
     if (heap.phase == EggPhase::kPicked) continue;
-    const Eigen::Vector2d was = before.inverse() * heap.egg_in_map;
-    const Eigen::Vector2d is = robot.inverse() * heap.egg_in_map;
-    if (was.x() <= blade || is.x() > blade || std::abs(is.y()) > half_width) continue;
+    const Eigen::Vector2d in_base = robot.inverse() * heap.egg_in_map;
+    if (in_base.x() > scraper_->center().x()) {
+      ahead_of_blade_.insert(heap.id);
+      continue;
+    }
+    // Remembered from the step before, as the place of a heap half hidden by the robot shifts.
+    if (!forwards || ahead_of_blade_.erase(heap.id) == 0) continue;
+    if (std::abs(in_base.y()) > half_width) continue;
     heap.phase = EggPhase::kPicked;
     heap.reason.clear();
     actions_.picked_eggs.push_back(heap.id);

@@ -140,6 +140,21 @@ TEST_F(CleanTest, AHeapSeenFromHomeIsCleanedBeforeTheMissionEnds) {
   EXPECT_EQ(mission_.state().current_egg, "heap2");
 }
 
+/// What the robot hides of a heap from the camera shifts the place of the rest.
+TEST_F(CleanTest, AHeapWhosePlaceShiftsBackUnderTheBladeIsCleanedAllTheSame) {
+  add_egg("heap1", 3, 0);
+  start();
+  robot_ = Pose2{2.45, 0, 0};
+  step();
+  robot_ = Pose2{2.58, 0, 0};
+  step();
+  ASSERT_NE(egg().phase, EggPhase::kPicked);
+  tracks_[0].egg_in_map = {2.95, 0};
+  robot_ = Pose2{2.60, 0, 0};
+  step();
+  EXPECT_EQ(egg().phase, EggPhase::kPicked);
+}
+
 TEST_F(CleanTest, BackwardsNothingIsCleaned) {
   add_egg("heap1", 3, 0);
   robot_ = Pose2{2.8, 0, 0};
