@@ -36,6 +36,20 @@ std::string escape_markup(std::string_view text) {
   return out;
 }
 
+std::string html_table(const std::vector<std::string>& headings,
+                       const std::vector<std::vector<std::string>>& rows) {
+  const auto row = [](const std::vector<std::string>& fields, std::string_view tag) {
+    std::string out = "<tr>";
+    for (const std::string& field : fields) {
+      out += "<" + std::string(tag) + ">" + escape_markup(field) + "</" + std::string(tag) + ">";
+    }
+    return out + "</tr>\n";
+  };
+  std::string out = "<table>\n" + row(headings, "th");
+  for (const auto& fields : rows) out += row(fields, "td");
+  return out + "</table>\n";
+}
+
 std::string html_page(std::string_view title, std::string_view body) {
   std::string page = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>";
   page += escape_markup(title);

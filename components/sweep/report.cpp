@@ -59,15 +59,7 @@ std::string problems(const std::vector<FinishedRun>& runs) {
 
 std::string table_of(const std::string& csv) {
   const CsvTable table = parse_csv(csv);
-  std::string out = "<table>\n<tr>";
-  for (const auto& column : table.columns) out += "<th>" + escape_markup(column) + "</th>";
-  out += "</tr>\n";
-  for (const auto& row : table.rows) {
-    out += "<tr>";
-    for (const auto& field : row) out += "<td>" + escape_markup(field) + "</td>";
-    out += "</tr>\n";
-  }
-  return out + "</table>\n";
+  return html_table(table.columns, table.rows);
 }
 
 }  // namespace

@@ -31,15 +31,7 @@ std::string as_text(const Table& table) {
 std::string as_html(const Table& table) {
   std::string out = "<h3>" + escape_markup(table.title) + "</h3>\n";
   if (!table.note.empty()) out += "<p>" + escape_markup(table.note) + "</p>\n";
-  out += "<table>\n<tr>";
-  for (const auto& field : table.header) out += "<th>" + escape_markup(field) + "</th>";
-  out += "</tr>\n";
-  for (const auto& row : table.rows) {
-    out += "<tr>";
-    for (const auto& field : row) out += "<td>" + escape_markup(field) + "</td>";
-    out += "</tr>\n";
-  }
-  return out + "</table>\n";
+  return out + html_table(table.header, table.rows);
 }
 
 std::string as_csv(const Table& table) {

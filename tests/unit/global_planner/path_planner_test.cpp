@@ -231,19 +231,27 @@ TEST_F(PathPlannerTest, ChangingTheDirectionOfTravelAtOnceCostsACusp) {
   EXPECT_NEAR(backwards->cost - at_rest->cost, config_.drivable_search.arc_cost.cusp_cost, 1e-4);
 }
 
-class GridPathPlanner : public ::testing::TestWithParam<std::string_view> {};
+class GridPathPlanner : public ::testing::TestWithParam<std::string_view> {
+ protected:
+  GridPathPlanner() {
+    map_.set_map(draw_room());
+    map_.update(Time{});
+  }
+  static PathPlannerConfig config() {
+    PathPlannerConfig config;
+    config.planner = GetParam();
+    if (config.planner == kJumpPoint) config.traversal.restricted_weight = 0.0;
+    return config;
+  }
+  PathPlanner planner_{config(), kRobotFootprint, kTurningRadius, RandomStream(1, "planner")};
+  PlanningMap map_{{}, Footprint(kRobotFootprint), config().poses.padding, planner_.reach(0.05)};
+};
 
 TEST_P(GridPathPlanner, TurnsEveryPoseAlongThePathAndEndsWithTheGoalsHeading) {
-  PathPlannerConfig config;
-  config.planner = GetParam();
-  if (config.planner == kJumpPoint) config.traversal.restricted_weight = 0.0;
-  PathPlanner planner(config, kRobotFootprint, kTurningRadius, RandomStream(1, "planner"));
-  PlanningMap map({}, Footprint(kRobotFootprint), config.poses.padding, planner.reach(0.05));
-  map.set_map(draw_room());
-  map.update(Time{});
+  const Costmap& costmap = map_.costmap();
   const Pose2 start{1.5, 1.5, 0.0};
   const Pose2 goal{4.0, 3.5, 1.0};
-  const auto result = planner.plan(map.costmap(), start, goal, 0);
+  const auto result = planner_.plan(costmap, start, goal, 0);
   ASSERT_TRUE(result) << result.error().detail;
   EXPECT_EQ(result->poses.back(), goal);
   EXPECT_GE(result->length, distance(start, goal));
@@ -251,21 +259,13 @@ TEST_P(GridPathPlanner, TurnsEveryPoseAlongThePathAndEndsWithTheGoalsHeading) {
     const Pose2 step = result->poses[i - 1].inverse() * result->poses[i];
     // Smoothing leaves bends of the grid's 45 or 90 degrees spread over several poses.
     EXPECT_NEAR(std::atan2(step.y, step.x), 0.0, 0.6) << "pose " << i;
-    EXPECT_LT(zone_of(map.costmap().cost_at(
-                  map.costmap().geometry().cell_of(result->poses[i].position()))),
-              Zone::kLethalZone);
+    const Cell cell = costmap.geometry().cell_of(result->poses[i].position());
+    EXPECT_LT(zone_of(costmap.cost_at(cell)), Zone::kLethalZone);
   }
 }
 
 TEST_P(GridPathPlanner, SaysWhyThereIsNoPath) {
-  PathPlannerConfig config;
-  config.planner = GetParam();
-  if (config.planner == kJumpPoint) config.traversal.restricted_weight = 0.0;
-  PathPlanner planner(config, kRobotFootprint, kTurningRadius, RandomStream(1, "planner"));
-  PlanningMap map({}, Footprint(kRobotFootprint), config.poses.padding, planner.reach(0.05));
-  map.set_map(draw_room());
-  map.update(Time{});
-  const auto outside = planner.plan(map.costmap(), {1.5, 1.5, 0.0}, {400.0, 3.5, 1.0}, 0);
+  const auto outside = planner_.plan(map_.costmap(), {1.5, 1.5, 0.0}, {400.0, 3.5, 1.0}, 0);
   ASSERT_FALSE(outside);
   EXPECT_EQ(outside.error().reason, PlanFailureReason::kGoalOutside);
 }
