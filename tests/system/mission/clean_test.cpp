@@ -13,9 +13,8 @@ constexpr int kHeaps = 5;
 
 class CleaningSystem : public ::testing::Test {
  protected:
-  void start(std::vector<std::string> arguments) {
-    arguments.insert(arguments.end(), {"--set", "lockstep=true", "--set", "rate=0"});
-    system_.emplace(std::filesystem::path(COOP_SOURCE_DIR) / "config/launch/pig_pen.yaml",
+  void start(const std::vector<std::string>& arguments) {
+    system_.emplace(std::filesystem::path(COOP_SOURCE_DIR) / "tests/data/pig_pen_lockstep.yaml",
                     arguments);
     watch_.emplace(system_->domain());
   }
