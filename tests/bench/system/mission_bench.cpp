@@ -62,7 +62,7 @@ void mission(benchmark::State& state) {
   for ([[maybe_unused]] auto _ : state) {
     RunningSystem system(launch, {"--set", seed, "--until", "mission-done"});
     const auto status = system.launcher().wait(kLimit);
-    const auto span = span_of(system.run_folder() / "logs/simulator.jsonl");
+    const auto span = span_of(system.folder() / "runs/latest/logs/simulator.jsonl");
     if (!status || !status->clean() || !span) {
       state.SkipWithError("the mission did not end well");
       break;
