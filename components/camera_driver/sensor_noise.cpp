@@ -109,6 +109,8 @@ void SensorNoise::apply(const std::vector<float>& exact_depth, Frame& frame) con
       const float measured = z + (constant + quadratic * z * z) * deviate;
       const bool is_lost = lost_[(lost_start + i) % kTable] != 0;
       const bool seen = z > 0.0F && !is_lost && measured >= nearest && measured <= farthest;
+      // Positive, so adding a half rounds as lround does, and vectors can do it.
+      // NOLINTNEXTLINE(bugprone-incorrect-roundings)
       depth[i] = seen ? static_cast<std::uint16_t>(measured * 1000.0F + 0.5F) : std::uint16_t{0};
     }
     add_to_colour(frame.colour.ptr(row), frame.colour.cols, colour_start);
