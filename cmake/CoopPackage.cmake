@@ -1,6 +1,8 @@
 # `cmake --install` and `cpack -G DEB`: programs in lib/coop (coop_node() and launcher/ put them there), the front door in
 # bin, configuration and maps in share/coop, where the launcher looks for them.
 install(PROGRAMS coop DESTINATION bin)
+# The verbs that build and test stay with the sources.
+install(DIRECTORY launcher/verbs/ DESTINATION share/coop/verbs REGEX "/(build|test|maintain)\\.sh$" EXCLUDE)
 install(DIRECTORY config maps DESTINATION share/coop)
 install(FILES README.md DESTINATION share/doc/coop OPTIONAL)
 install(DIRECTORY docs/ DESTINATION share/doc/coop OPTIONAL FILES_MATCHING PATTERN "*.md" PATTERN "*.png")

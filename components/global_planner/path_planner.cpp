@@ -145,14 +145,14 @@ std::optional<PlanFailure> PathPlanner::check_ends(const Costmap& costmap, const
                                                    const Pose2& goal) {
   using enum PlanFailureReason;
   const GridGeometry& geometry = costmap.geometry();
-  const Cell goal_cell = geometry.cell_of(goal.position());
-  if (!geometry.contains(geometry.cell_of(start.position()))) {
+  const auto goal_cell = cell_within(geometry, goal.position());
+  if (!cell_within(geometry, start.position())) {
     return PlanFailure{kStartOutside, "the robot is outside the map", std::nullopt};
   }
-  if (!geometry.contains(goal_cell)) {
+  if (!goal_cell || !std::isfinite(goal.yaw)) {
     return PlanFailure{kGoalOutside, "the goal lies outside the map", std::nullopt};
   }
-  if (costmap.cost_at(goal_cell) == kUnknownCost && !config_.traversal.allow_unknown) {
+  if (costmap.cost_at(*goal_cell) == kUnknownCost && !config_.traversal.allow_unknown) {
     return PlanFailure{kGoalUnknown, "the goal lies where the map is unknown", std::nullopt};
   }
   const auto prepared = checker_for(geometry.resolution).prepare(costmap.distances(), start, goal);

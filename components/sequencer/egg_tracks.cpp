@@ -48,6 +48,19 @@ void EggTracks::grow(Time now) {
   last_update_ = now;
 }
 
+std::vector<Sighting> to_sightings(const std::vector<Detection>& detections,
+                                   std::string_view class_id, const Pose3& camera_in_map) {
+  std::vector<Sighting> sightings;
+  for (const Detection& detection : detections) {
+    if (detection.class_id != class_id) continue;
+    const Eigen::Vector3d place = camera_in_map * detection.position;
+    const Eigen::Matrix3d covariance =
+        camera_in_map.linear() * detection.covariance * camera_in_map.linear().transpose();
+    sightings.push_back({place.head<2>(), covariance.topLeftCorner<2, 2>(), detection.score});
+  }
+  return sightings;
+}
+
 EggTrack* EggTracks::match(const Sighting& sighting, const Eigen::Matrix2d& noise) {
   EggTrack* best = nullptr;
   double best_distance = config_.gate;

@@ -2,9 +2,12 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/config/fields.hpp"
+#include "core/detection.hpp"
+#include "core/pose.hpp"
 #include "core/time.hpp"
 #include "sequencer/camera_view.hpp"
 
@@ -32,6 +35,11 @@ struct Sighting {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< m^2
   double score = 1.0;
 };
+
+/// Detections of that class, in the camera's frame, as sightings in the map.
+[[nodiscard]] std::vector<Sighting> to_sightings(const std::vector<Detection>& detections,
+                                                 std::string_view class_id,
+                                                 const Pose3& camera_in_map);
 
 /// One picture.
 struct Picture {

@@ -8,6 +8,7 @@
 #include "conversions/sensors.hpp"
 #include "conversions/time.hpp"
 #include "coop_msgs/msg/PickResult.h"
+#include "core/config/error.hpp"
 #include "core/robot/robot_model.hpp"
 #include "nav_msgs/msg/OccupancyGrid.h"
 #include "sequencer/node/mission_messages.hpp"
@@ -29,19 +30,6 @@ constexpr std::size_t kGoalsKept = 20;
 /// A pose older than this is no pose.
 constexpr auto kPoseAge = std::chrono::seconds(1);
 
-std::vector<Sighting> to_sightings(const std::vector<Detection>& detections,
-                                   std::string_view class_id, const Pose3& camera_in_map) {
-  std::vector<Sighting> sightings;
-  for (const Detection& detection : detections) {
-    if (detection.class_id != class_id) continue;
-    const Eigen::Vector3d place = camera_in_map * detection.position;
-    const Eigen::Matrix3d covariance =
-        camera_in_map.linear() * detection.covariance * camera_in_map.linear().transpose();
-    sightings.push_back({place.head<2>(), covariance.topLeftCorner<2, 2>(), detection.score});
-  }
-  return sightings;
-}
-
 /// A robot with a scraper cleans, one without collects.
 std::optional<Eigen::AlignedBox2d> scraper_of(const robot::RobotModel& robot) {
   if (!robot.has_link(robot::kScraperLink)) return std::nullopt;
@@ -51,7 +39,11 @@ std::optional<Eigen::AlignedBox2d> scraper_of(const robot::RobotModel& robot) {
 }  // namespace
 
 void SequencerNode::check(const Config& config) {
-  (void)robot::RobotModel::load(config.robot);
+  const bool cleans = scraper_of(robot::RobotModel::load(config.robot)).has_value();
+  const std::string other = cleans ? "collect" : "clean";
+  if (config.autostart != other) return;
+  throw config::Error("autostart: " + other + ": " + config.robot + " has " +
+                      (cleans ? "a " : "no ") + std::string(robot::kScraperLink));
 }
 
 SequencerNode::SequencerNode(runtime::Node& node, const Config& config)

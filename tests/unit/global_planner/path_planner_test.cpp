@@ -265,9 +265,13 @@ TEST_P(GridPathPlanner, TurnsEveryPoseAlongThePathAndEndsWithTheGoalsHeading) {
 }
 
 TEST_P(GridPathPlanner, SaysWhyThereIsNoPath) {
-  const auto outside = planner_.plan(map_.costmap(), {1.5, 1.5, 0.0}, {400.0, 3.5, 1.0}, 0);
-  ASSERT_FALSE(outside);
-  EXPECT_EQ(outside.error().reason, PlanFailureReason::kGoalOutside);
+  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+  for (const Pose2& goal : {Pose2{400.0, 3.5, 1.0}, Pose2{1e300, 3.5, 1.0},
+                            Pose2{kNoNumber, 3.5, 1.0}, Pose2{4.0, 3.5, kNoNumber}}) {
+    const auto outside = planner_.plan(map_.costmap(), {1.5, 1.5, 0.0}, goal, 0);
+    ASSERT_FALSE(outside) << goal.x << " " << goal.yaw;
+    EXPECT_EQ(outside.error().reason, PlanFailureReason::kGoalOutside);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryPlanner, GridPathPlanner,
