@@ -6,6 +6,7 @@
 
 #include "launcher/event_loop.hpp"
 #include "launcher/log_file.hpp"
+#include "launcher/process_usage.hpp"
 #include "launcher/supervisor.hpp"
 
 namespace coop::launcher {
@@ -23,6 +24,9 @@ class ProcessTable : public ProcessHost {
   Result<pid_t> start(const PlannedComponent& component) override;
   void signal(pid_t pid, int number) override;
   [[nodiscard]] std::string last_words(const std::string& component) const override;
+  [[nodiscard]] std::optional<double> starved(pid_t pid) const override {
+    return starved_seconds(pid);
+  }
 
   /// All that have ended since the last call; their output has been written down.
   struct Exit {

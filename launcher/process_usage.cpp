@@ -15,6 +15,14 @@ constexpr double kShortestInterval = 2.0;
 
 }  // namespace
 
+std::optional<double> starved_seconds(pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/schedstat");
+  double running = 0.0;
+  double waiting = 0.0;
+  if (!(file >> running >> waiting)) return std::nullopt;
+  return 1e-9 * waiting;
+}
+
 std::optional<Usage> UsageMeter::sample(pid_t pid, Instant now) {
   std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
   std::string line;

@@ -15,6 +15,10 @@ struct Usage {
   std::uint64_t resident = 0;  ///< bytes
 };
 
+/// s for which the main thread of a process could have run and had no processor, since it was
+/// started. Nothing where the process is gone or the kernel does not count it.
+[[nodiscard]] std::optional<double> starved_seconds(pid_t pid);
+
 /// Processor and memory use of processes, from /proc.
 class UsageMeter {
  public:

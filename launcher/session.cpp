@@ -9,6 +9,7 @@
 
 #include "launcher/component_check.hpp"
 #include "launcher/control_server.hpp"
+#include "launcher/dds_base.hpp"
 #include "launcher/dds_health.hpp"
 #include "launcher/display.hpp"
 #include "launcher/process_table.hpp"
@@ -47,7 +48,7 @@ void check_all(const Plan& plan) {
 class Session {
  public:
   Session(const UpOptions& options, const Launch& launch, const Plan& plan, RunFolder& folder,
-          HealthSource& health, SignalFile& signals)
+          HealthSource& health, Base* base, SignalFile& signals)
       : options_(options),
         launch_(launch),
         folder_(folder),
@@ -61,7 +62,7 @@ class Session {
                    }),
         supervisor_(
             plan, processes_,
-            [this](const std::string& name, const std::string& text) { report(name, text); }),
+            [this](const std::string& name, const std::string& text) { report(name, text); }, base),
         control_(loop_, launch.robot, launch.domain,
                  [this](const ControlRequest& request) { return handle(request); }) {
     loop_.watch(signals_.fd(), [this] { take_signals(); });
@@ -269,12 +270,15 @@ Outcome run_system(const UpOptions& options) {
                                    .partition = launch.robot,
                                    .reliable_streams = launch.reliable_streams});
   DdsHealth health(transport);
+  // In lockstep a message from outside would change the run, and no real base runs in it.
+  std::optional<DdsBase> base;
+  if (!launch.lockstep) base.emplace(transport);
   const Instant listen_until = now() + kListen;
   check_all(plan);
   refuse_strangers(health, plan, listen_until);
   folder.keep();
   std::ofstream(folder.path() / "launch.yaml") << config::to_yaml(launch);
-  Session session(options, launch, plan, folder, health, signals);
+  Session session(options, launch, plan, folder, health, base ? &*base : nullptr, signals);
   session.answer_for(*lock);
   if (options.until == "mission-done") session.watch_mission(transport);
   return session.run();

@@ -12,6 +12,10 @@ namespace {
 /// machine asleep): the heartbeats of that time are still to be read and nobody is blamed for them.
 constexpr std::chrono::seconds kOwnPause{1};
 
+/// How often it is looked after one that is silent, and after a base that comes to rest.
+constexpr std::chrono::milliseconds kSilentLook{100};
+constexpr std::chrono::milliseconds kHaltLook{20};
+
 std::string shown(double seconds) {
   char text[32];
   std::snprintf(text, sizeof text, seconds < 10 ? "%.2f s" : "%.0f s", seconds);
@@ -22,8 +26,9 @@ double seconds_between(Instant from, Instant to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
+/// Also one that was and has fallen silent.
 bool is_up(State state) {
-  return state == State::kReady || state == State::kDegraded;
+  return state == State::kReady || state == State::kDegraded || state == State::kSilent;
 }
 
 }  // namespace
@@ -38,6 +43,8 @@ std::string_view name_of(State state) {
       return "ready";
     case State::kDegraded:
       return "degraded";
+    case State::kSilent:
+      return "silent";
     case State::kBackingOff:
       return "backing off";
     case State::kStopping:
@@ -52,8 +59,8 @@ std::string_view name_of(State state) {
   return "unknown";
 }
 
-Supervisor::Supervisor(const Plan& plan, ProcessHost& host, Report report)
-    : host_(host), report_(std::move(report)) {
+Supervisor::Supervisor(const Plan& plan, ProcessHost& host, Report report, Base* base)
+    : host_(host), report_(std::move(report)), base_(base) {
   for (const PlannedComponent& component : plan.components) {
     Slot slot;
     slot.planned = &component;
@@ -245,12 +252,34 @@ void Supervisor::tick(Instant now) {
     } else if (slot.state == State::kStarting && due) {
       slot.doom = "not ready within " + shown(slot.planned->start_timeout) +
                   (slot.detail.empty() ? "" : ": " + slot.detail);
-    } else if (is_up(slot.state) && slot.planned->sends_heartbeat &&
-               now - slot.last_heartbeat >= seconds(slot.planned->heartbeat_timeout)) {
-      slot.doom = "hangs: no heartbeat for " + shown(slot.planned->heartbeat_timeout);
+    } else if (is_up(slot.state) && slot.planned->sends_heartbeat) {
+      watch(slot, now);
     }
     if (!slot.doom.empty()) host_.signal(slot.pid, SIGKILL);
   }
+  if (waits_for_base_ && !base_is_waited_for(now)) stop_in_order(now);
+}
+
+/// The heartbeat of one that is up.
+void Supervisor::watch(Slot& slot, Instant now) {
+  const Duration silence = now - slot.last_heartbeat;
+  const Duration timeout = seconds(slot.planned->heartbeat_timeout);
+  if (slot.state != State::kSilent && silence >= std::min<Duration>(kSilence, timeout)) {
+    slot.starved_before = host_.starved(slot.pid).value_or(0.0);
+    slot.state = State::kSilent;
+    slot.detail = "no heartbeat";
+    report_(slot.planned->name, "silent: no heartbeat for " + shown(to_seconds(kSilence)));
+  }
+  if (silence < timeout) return;
+  if (to_seconds(silence) < kPatience * to_seconds(timeout) && lacks_processor(slot, now)) return;
+  slot.doom = "hangs: no heartbeat for " + shown(to_seconds(silence));
+}
+
+/// Whether it would have run for most of its silence, had it been let.
+bool Supervisor::lacks_processor(const Slot& slot, Instant now) const {
+  const std::optional<double> starved = host_.starved(slot.pid);
+  const double silence = std::max(0.0, seconds_between(slot.last_heartbeat + kSilence, now));
+  return starved && *starved - slot.starved_before > 0.5 * silence;
 }
 
 std::optional<Instant> Supervisor::next_deadline() const {
@@ -258,10 +287,11 @@ std::optional<Instant> Supervisor::next_deadline() const {
   for (const Slot& slot : slots_) {
     if (!slot.doom.empty()) continue;
     next = std::min(next, slot.deadline);
-    if (is_up(slot.state) && slot.planned->sends_heartbeat) {
-      next = std::min(next, slot.last_heartbeat + seconds(slot.planned->heartbeat_timeout));
-    }
+    if (!is_up(slot.state) || !slot.planned->sends_heartbeat) continue;
+    next = std::min(next, slot.state == State::kSilent ? last_tick_ + kSilentLook
+                                                       : slot.last_heartbeat + kSilence);
   }
+  if (waits_for_base_) next = std::min(next, last_tick_ + kHaltLook);
   if (next == Instant::max()) return std::nullopt;
   return next;
 }

@@ -6,6 +6,14 @@
 #include "launcher/supervisor.hpp"
 
 namespace coop::launcher {
+namespace {
+
+/// For so long the base must stand before the rest is stopped: a command may be under way to it.
+constexpr std::chrono::milliseconds kRest{100};
+/// One that has told nothing for so long has died, or hangs.
+constexpr std::chrono::milliseconds kBaseSilence{400};
+
+}  // namespace
 
 Result<Supervisor::Slot*> Supervisor::find(const std::string& name) {
   if (shutting_down()) return fail("the system is stopping");
@@ -75,10 +83,33 @@ void Supervisor::shut_down(Outcome outcome, Instant now) {
     slot.start_again = false;
     if (slot.pid == 0) terminate(slot, now);
   }
+  if (base_ != nullptr && !done()) halt_base(now);
   stop_in_order(now);
 }
 
+void Supervisor::halt_base(Instant now) {
+  base_->halt();
+  halt_began_ = now;
+  waits_for_base_ = true;
+  (void)base_is_waited_for(now);
+}
+
+bool Supervisor::base_is_waited_for(Instant now) {
+  const Base::Motion motion = base_->motion();
+  if (motion != Base::Motion::kAtRest) rests_since_ = Instant::max();
+  if (motion == Base::Motion::kAtRest) rests_since_ = std::min(rests_since_, now);
+  const bool rests = rests_since_ != Instant::max() && now - rests_since_ >= kRest;
+  const bool is_gone = motion == Base::Motion::kUnknown && now - halt_began_ >= kBaseSilence;
+  const bool too_long = now - halt_began_ >= kHaltLimit;
+  waits_for_base_ = motion != Base::Motion::kNone && !rests && !is_gone && !too_long;
+  if (!waits_for_base_ && motion == Base::Motion::kMoving) {
+    report_("", "the base does not come to rest");
+  }
+  return waits_for_base_;
+}
+
 void Supervisor::stop_in_order(Instant now) {
+  if (waits_for_base_) return;
   for (std::size_t i = slots_.size(); i-- > 0;) {
     if (slots_[i].pid != 0 && may_stop(i)) terminate(slots_[i], now);
   }

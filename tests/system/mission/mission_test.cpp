@@ -2,6 +2,8 @@
 // way.
 #include <gtest/gtest.h>
 
+#include <csignal>
+
 #include "system/mission/mission_watch.hpp"
 #include "system/support/running_system.hpp"
 
@@ -50,6 +52,15 @@ TEST_F(MissionSystem, TwoEggsAreFoundAndCollected) {
   const auto status = system_->stop();
   ASSERT_TRUE(status);
   EXPECT_EQ(status->code, 0);
+}
+
+TEST_F(MissionSystem, ASystemStoppedOnTheWayLetsTheRobotComeToRestFirst) {
+  start("collect.yaml", short_mission());
+  const auto speed = [&] { return std::abs(watch_->truth().velocity().linear().x()); };
+  ASSERT_TRUE(wait([&] { return speed() > 0.25; })) << watch_->mission().detail();
+  system_->launcher().signal(SIGTERM);
+  ASSERT_TRUE(wait([&] { return system_->launcher().wait(milliseconds(0)).has_value(); }));
+  EXPECT_LT(speed(), 0.01) << "the last that was heard of the robot";
 }
 
 /// In lockstep, where looking again and again takes seconds instead of minutes.

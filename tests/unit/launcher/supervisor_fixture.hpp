@@ -32,6 +32,7 @@ class FakeHost : public ProcessHost {
     calls.push_back(text + names[pid]);
   }
   std::string last_words(const std::string&) const override { return words; }
+  std::optional<double> starved(pid_t) const override { return starved_for; }
 
   std::vector<std::string> take() { return std::exchange(calls, {}); }
 
@@ -40,7 +41,17 @@ class FakeHost : public ProcessHost {
   std::map<pid_t, std::string> names;
   std::set<std::string> unstartable;
   std::string words;
+  std::optional<double> starved_for;
   pid_t last_pid = 100;
+};
+
+/// A base that moves as the test says.
+class FakeBase : public Base {
+ public:
+  void halt() override { ++halts; }
+  Motion motion() override { return now; }
+  int halts = 0;
+  Motion now = Motion::kMoving;
 };
 
 inline PlannedComponent component(const std::string& name, std::vector<std::size_t> after = {}) {
@@ -61,11 +72,14 @@ inline PlannedComponent component(const std::string& name, std::vector<std::size
 /// A supervisor on a clock that only the test moves.
 class SupervisorTest : public ::testing::Test {
  protected:
-  void make(std::vector<PlannedComponent> components) {
+  void make(std::vector<PlannedComponent> components, Base* base = nullptr) {
     plan_.components = std::move(components);
-    supervisor_.emplace(plan_, host_, [this](const std::string& name, const std::string& text) {
-      reports_.push_back(name + ": " + text);
-    });
+    supervisor_.emplace(
+        plan_, host_,
+        [this](const std::string& name, const std::string& text) {
+          reports_.push_back(name + ": " + text);
+        },
+        base);
     supervisor_->start(now_);
   }
   void beat(const std::string& name, Health health = Health::kReady, std::string detail = "") {

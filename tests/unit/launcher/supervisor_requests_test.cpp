@@ -27,6 +27,62 @@ TEST_F(SupervisorTest, StoppingGoesInReverseAndWaitsForThoseThatComeAfter) {
   EXPECT_EQ(supervisor_->outcome().code, 0);
 }
 
+TEST_F(SupervisorTest, EverythingGoesOnUntilTheBaseStands) {
+  FakeBase base;
+  make({component("base"), component("dwa", {0})}, &base);
+  beat("base");
+  beat("dwa");
+  host_.take();
+  supervisor_->shut_down({kExitGivenUp, "dwa given up"}, now_);
+  EXPECT_EQ(base.halts, 1);
+  advance(1s, {"base", "dwa"});
+  EXPECT_THAT(host_.take(), IsEmpty());
+  EXPECT_LE(supervisor_->next_deadline(), now_ + 50ms);
+  base.now = Base::Motion::kAtRest;
+  advance(50ms);
+  EXPECT_THAT(host_.take(), IsEmpty()) << "it may have stood for a moment only";
+  advance(100ms);
+  EXPECT_THAT(host_.take(), ElementsAre("term dwa"));
+  exits("dwa", 0);
+  exits("base", 0);
+  EXPECT_TRUE(supervisor_->done());
+  EXPECT_EQ(supervisor_->outcome().code, kExitGivenUp);
+}
+
+TEST_F(SupervisorTest, ABaseThatDiesWhileItIsWaitedForIsNotStartedAgain) {
+  FakeBase base;
+  make({component("base"), component("dwa", {0})}, &base);
+  beat("base");
+  beat("dwa");
+  supervisor_->shut_down({kExitOk, "asked to"}, now_);
+  host_.take();
+  exits("base", 0, SIGSEGV);
+  base.now = Base::Motion::kUnknown;
+  advance(500ms);
+  EXPECT_THAT(host_.take(), ElementsAre("kill base", "term dwa"));
+}
+
+TEST_F(SupervisorTest, NobodyWaitsWhereThereIsNoBaseOrItDoesNotStop) {
+  FakeBase base;
+  base.now = Base::Motion::kNone;
+  make({component("camera")}, &base);
+  beat("camera");
+  host_.take();
+  supervisor_->shut_down({kExitOk, "asked to"}, now_);
+  EXPECT_THAT(host_.take(), ElementsAre("term camera"));
+
+  FakeBase runaway;
+  make({component("dwa")}, &runaway);
+  beat("dwa");
+  host_.take();
+  supervisor_->shut_down({kExitOk, "asked to"}, now_);
+  advance(Supervisor::kHaltLimit - 100ms, {"dwa"});
+  EXPECT_THAT(host_.take(), IsEmpty());
+  advance(100ms, {"dwa"});
+  EXPECT_THAT(host_.take(), ElementsAre("term dwa"));
+  EXPECT_THAT(reports_.back(), HasSubstr("the base does not come to rest"));
+}
+
 TEST_F(SupervisorTest, WhoIgnoresSigtermIsKilledAtHisTimeLimit) {
   make({component("dwa")});
   beat("dwa");

@@ -146,6 +146,49 @@ TEST_F(SupervisorTest, WhoseHeartbeatStopsIsKilledAndStartedAgain) {
   EXPECT_THAT(host_.take(), Contains("start amcl"));
 }
 
+TEST_F(SupervisorTest, ASecondWithoutHeartbeatIsToldLongBeforeAnythingIsKilled) {
+  make({component("amcl")});
+  beat("amcl");
+  host_.take();
+  advance(950ms);
+  EXPECT_EQ(state("amcl"), State::kReady);
+  advance(50ms);
+  EXPECT_EQ(state("amcl"), State::kSilent);
+  EXPECT_EQ(reports_.back(), "amcl: silent: no heartbeat for 1.00 s");
+  EXPECT_FALSE(supervisor_->all_ready());
+  EXPECT_THAT(host_.take(), IsEmpty());
+  beat("amcl", Health::kDegraded, "no scan");
+  EXPECT_EQ(state("amcl"), State::kDegraded);
+  advance(5s, {"amcl"});
+  EXPECT_EQ(state("amcl"), State::kReady);
+  EXPECT_THAT(host_.take(), IsEmpty());
+}
+
+TEST_F(SupervisorTest, WhoIsKeptFromRunningByTheLoadOfTheMachineHasMoreTime) {
+  make({component("amcl")});
+  beat("amcl");
+  host_.take();
+  host_.starved_for = 20.0;  // before it fell silent
+  advance(1s);
+  ASSERT_EQ(state("amcl"), State::kSilent);
+  for (int i = 0; i < 75; ++i) {  // until 8.5 s
+    host_.starved_for = *host_.starved_for + 0.06;
+    advance(100ms);
+  }
+  EXPECT_THAT(host_.take(), IsEmpty());
+  advance(500ms);
+  EXPECT_THAT(host_.take(), ElementsAre("kill amcl")) << "three times its timeout is enough";
+}
+
+TEST_F(SupervisorTest, WhoSleepsOnALoadedMachineIsNotExcused) {
+  make({component("amcl")});
+  beat("amcl");
+  host_.take();
+  host_.starved_for = 20.0;
+  advance(3s);
+  EXPECT_THAT(host_.take(), ElementsAre("kill amcl"));
+}
+
 TEST_F(SupervisorTest, NobodyIsBlamedForTheTimeTheLauncherItselfDidNotRun) {
   make({component("amcl")});
   beat("amcl");
@@ -185,7 +228,7 @@ TEST_F(SupervisorTest, TheNextDeadlineIsTheEarliestOfAll) {
   make({component("a"), component("b")});
   EXPECT_EQ(supervisor_->next_deadline(), now_ + 10s);
   beat("a");
-  EXPECT_EQ(supervisor_->next_deadline(), now_ + 3s);
+  EXPECT_EQ(supervisor_->next_deadline(), now_ + Supervisor::kSilence);
   exits("b", 4);
   EXPECT_EQ(supervisor_->next_deadline(), now_ + 100ms);
 }
