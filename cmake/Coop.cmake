@@ -15,6 +15,10 @@ target_compile_options(coop_options INTERFACE
   -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict
   # One result on every processor: no contraction to fused multiply-add.
   -ffp-contract=off)
+if(CMAKE_UNITY_BUILD)
+  # Every source looks like a header to the compiler then; what is hidden in one may stand in another's members.
+  target_compile_options(coop_options INTERFACE -Wno-subobject-linkage)
+endif()
 if(COOP_SANITIZER)
   target_compile_options(coop_options INTERFACE -fsanitize=${COOP_SANITIZER} -fno-omit-frame-pointer)
   target_link_options(coop_options INTERFACE -fsanitize=${COOP_SANITIZER})

@@ -20,10 +20,6 @@ Pose2 pose_from(const nlohmann::json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
-double squared(double value) {
-  return value * value;
-}
-
 }  // namespace
 
 std::uint64_t hash_of(const OccupancyGrid& map) {
@@ -97,9 +93,11 @@ PoseEstimate resume(const SavedPose& saved, Time now, const Pose2& base_in_odom)
       way = turn = 0.0;
     }
   }
-  result.covariance(0, 0) += squared(0.05 + 0.1 * way);
-  result.covariance(1, 1) += squared(0.05 + 0.1 * way);
-  result.covariance(2, 2) += squared(0.05 + 0.1 * turn);
+  const double sideways = 0.05 + 0.1 * way;
+  const double turned = 0.05 + 0.1 * turn;
+  result.covariance(0, 0) += sideways * sideways;
+  result.covariance(1, 1) += sideways * sideways;
+  result.covariance(2, 2) += turned * turned;
   return result;
 }
 

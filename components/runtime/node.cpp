@@ -9,6 +9,9 @@
 namespace coop::runtime {
 namespace {
 
+/// How long a program that ends waits, in all, for readers that have missed its last messages.
+constexpr std::chrono::milliseconds kLastWords{300};
+
 /// Takes from a reader and calls back.
 class Subscription : public InputSource {
  public:
@@ -44,6 +47,8 @@ struct Node::Impl {
   std::vector<std::unique_ptr<Subscription>> subscriptions;
   std::unique_ptr<TransformListener> listener;
   std::unique_ptr<TransformPublisher> transform_publisher;
+  /// Their last message must arrive: nobody repeats it once the program is gone.
+  std::vector<std::weak_ptr<Writer>> lasting_writers;
   std::vector<std::function<void()>> stop_callbacks;
   std::vector<std::function<void()>> jump_callbacks;
   std::optional<TimeLead> lead;
@@ -64,6 +69,19 @@ struct Node::Impl {
     for (int i = 0; i < due; ++i) lead->step();
     if (pacing->lost() > lost_before && log.is_due("lag", std::chrono::seconds(10))) {
       log.warning("cannot keep up: {:.1f} s lost so far", to_seconds(pacing->lost()));
+    }
+  }
+
+  void deliver_last_words() {
+    const auto limit = Executor::Wall::now() + kLastWords;
+    for (const std::weak_ptr<Writer>& known : lasting_writers) {
+      const auto writer = known.lock();
+      if (!writer) continue;
+      const Duration left = std::max(limit - Executor::Wall::now(), Executor::Wall::duration(0));
+      if (!writer->wait_for_acknowledgments(left)) {
+        log.warning("a reader has not acknowledged everything of the last messages");
+        return;
+      }
     }
   }
 
@@ -90,7 +108,9 @@ Node::~Node() {
 
 std::shared_ptr<Writer> Node::create_writer(const std::string& topic, const MessageType& type,
                                             Qos qos) {
-  return impl_->transport.create_writer(topic, type, qos);
+  std::shared_ptr<Writer> writer = impl_->transport.create_writer(topic, type, qos);
+  if (qos == Qos::kStateLatched || qos == Qos::kEvent) impl_->lasting_writers.push_back(writer);
+  return writer;
 }
 
 void Node::add_subscription(const std::string& topic, const MessageType& type, Qos qos,
@@ -221,6 +241,7 @@ void Node::stop() {
   impl_->executor.run_inputs();
   for (const auto& callback : impl_->stop_callbacks) callback();
   impl_->stop_callbacks.clear();
+  impl_->deliver_last_words();
 }
 
 bool Node::wants_to_end() const {

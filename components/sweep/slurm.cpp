@@ -25,7 +25,7 @@ bool is_active(std::string_view state) {
   return std::ranges::find(kEnded, state) == kEnded.end();
 }
 
-std::optional<int> number(std::string_view text) {
+std::optional<int> whole_number(std::string_view text) {
   int value = 0;
   const char* end = text.data() + text.size();
   const auto [stopped, error] = std::from_chars(text.data(), end, value);
@@ -113,7 +113,7 @@ std::vector<std::string> sbatch_arguments(const ArrayJob& job, const SweepConfig
 std::optional<std::string> job_number(std::string_view printed) {
   for (const std::string& line : lines_of(printed)) {
     const std::string first = line.substr(0, line.find(';'));  // then the cluster's name
-    if (number(first)) return first;
+    if (whole_number(first)) return first;
   }
   return std::nullopt;
 }
@@ -131,7 +131,7 @@ ArrayState array_state(std::string_view printed) {
     std::string reason;
     words >> index >> name >> std::ws;
     std::getline(words, reason);
-    const auto place = number(index);
+    const auto place = whole_number(index);
     if (!place || name.empty()) continue;
     state.tasks[*place] = name;
     if (name == "PENDING" && state.reason.empty() && reason != "None") state.reason = reason;

@@ -6,29 +6,29 @@
 namespace coop::carmen {
 namespace {
 
-struct Record {
+struct Entry {
   PlaybackPosition::Log log;
   PlaybackPosition::Mark mark;
 };
-static_assert(std::is_trivially_copyable_v<Record>);
+static_assert(std::is_trivially_copyable_v<Entry>);
 
 }  // namespace
 
 PlaybackPosition::PlaybackPosition(std::filesystem::path path, const Log& log)
     : path_(std::move(path)), log_(log) {
   const auto stored = StateJournal::newest(path_);
-  if (stored && stored->size() == sizeof(Record)) {
-    Record record;
-    std::memcpy(&record, stored->data(), sizeof record);
-    if (record.log == log_ && record.mark.taken <= log_.records) found_ = record.mark;
+  if (stored && stored->size() == sizeof(Entry)) {
+    Entry entry;
+    std::memcpy(&entry, stored->data(), sizeof entry);
+    if (entry.log == log_ && entry.mark.taken <= log_.records) found_ = entry.mark;
   }
-  journal_ = std::make_unique<StateJournal>(path_, sizeof(Record));
+  journal_ = std::make_unique<StateJournal>(path_, sizeof(Entry));
 }
 
 void PlaybackPosition::write(const Mark& mark) {
   if (!journal_ || written_ == mark) return;
-  const Record record{log_, mark};
-  journal_->write({reinterpret_cast<const char*>(&record), sizeof record});
+  const Entry entry{log_, mark};
+  journal_->write({reinterpret_cast<const char*>(&entry), sizeof entry});
   written_ = mark;
 }
 

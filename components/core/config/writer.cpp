@@ -6,7 +6,7 @@
 namespace coop::config {
 namespace {
 
-std::string shown(double value) {
+std::string precise(double value) {
   std::ostringstream out;
   out.precision(15);
   out << value;
@@ -34,7 +34,7 @@ class TextFields : public Fields {
  public:
   using Fields::integer;
   void number(std::string_view name, double& value, const Spec& spec) override {
-    emit(name, shown(value), spec);
+    emit(name, precise(value), spec);
   }
   void integer(std::string_view name, std::int64_t& value, const Spec& spec) override {
     emit(name, std::to_string(value), spec);
@@ -52,7 +52,7 @@ class TextFields : public Fields {
     choices_ = {};
   }
   void numbers(std::string_view name, std::vector<double>& value, const Spec& spec) override {
-    emit(name, joined(value, [](double item) { return shown(item); }), spec);
+    emit(name, joined(value, [](double item) { return precise(item); }), spec);
   }
   void texts(std::string_view name, std::vector<std::string>& value, const Spec& spec) override {
     emit(name, joined(value, in_quotes), spec);
@@ -161,9 +161,9 @@ class TableWriter : public TextFields {
     if (!choices_.empty()) return out;
     const bool low = std::isfinite(spec.min);
     const bool high = std::isfinite(spec.max);
-    if (low && high) return shown(spec.min) + " .. " + shown(spec.max);
-    if (low) return ">= " + shown(spec.min);
-    return high ? "<= " + shown(spec.max) : "";
+    if (low && high) return precise(spec.min) + " .. " + precise(spec.max);
+    if (low) return ">= " + precise(spec.min);
+    return high ? "<= " + precise(spec.max) : "";
   }
 
   std::string& out_;

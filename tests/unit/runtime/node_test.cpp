@@ -1,5 +1,6 @@
 #include "runtime/node.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "coop_msgs/msg/ComponentStatus.h"
@@ -42,6 +43,66 @@ class Parrot {
   std::string heard_ = "nothing";
   Publisher<StringMessage> out_;
 };
+
+/// Says of which topics the last messages were waited for, and how that ended.
+class AskedTransport : public InProcessTransport {
+ public:
+  explicit AskedTransport(bool acknowledged) : acknowledged_(acknowledged) {}
+
+  std::unique_ptr<Writer> create_writer(const std::string& topic, const MessageType& type,
+                                        Qos qos) override {
+    return std::make_unique<AskedWriter>(*this, topic,
+                                         InProcessTransport::create_writer(topic, type, qos));
+  }
+  [[nodiscard]] const std::vector<std::string>& asked() const { return asked_; }
+
+ private:
+  class AskedWriter : public Writer {
+   public:
+    AskedWriter(AskedTransport& transport, std::string topic, std::unique_ptr<Writer> writer)
+        : transport_(transport), topic_(std::move(topic)), writer_(std::move(writer)) {}
+    [[nodiscard]] const std::string& id() const override { return writer_->id(); }
+    bool write(const void* message) override { return writer_->write(message); }
+    [[nodiscard]] std::uint64_t sequence() const override { return writer_->sequence(); }
+    [[nodiscard]] int matched_readers() const override { return writer_->matched_readers(); }
+    [[nodiscard]] bool reaches(const std::string& reader) const override {
+      return writer_->reaches(reader);
+    }
+    bool wait_for_acknowledgments(Duration timeout) override {
+      EXPECT_GT(timeout, Duration{0});
+      EXPECT_LE(timeout, std::chrono::seconds(1));
+      transport_.asked_.push_back(topic_);
+      return transport_.acknowledged_;
+    }
+
+   private:
+    AskedTransport& transport_;
+    std::string topic_;
+    std::unique_ptr<Writer> writer_;
+  };
+
+  bool acknowledged_;
+  std::vector<std::string> asked_;
+};
+
+std::vector<std::string> topics_waited_for_at_the_end(bool acknowledged) {
+  AskedTransport transport(acknowledged);
+  ManualClock clock;
+  Executor executor(clock);
+  Node node({}, transport, clock, executor);
+  const auto state = node.advertise<StringMessage>("state", Qos::kStateLatched);
+  const auto stream = node.advertise<StringMessage>("stream", Qos::kSensorStream);
+  { const auto gone = node.advertise<StringMessage>("gone", Qos::kEvent); }
+  const auto event = node.advertise<StringMessage>("event", Qos::kEvent);
+  node.stop();
+  return transport.asked();
+}
+
+TEST(NodeEndTest, WhatMustArriveIsWaitedForAndWhoDoesNotAnswerEndsTheWaiting) {
+  using ::testing::ElementsAre;
+  EXPECT_THAT(topics_waited_for_at_the_end(true), ElementsAre("state", "event"));
+  EXPECT_THAT(topics_waited_for_at_the_end(false), ElementsAre("state"));
+}
 
 class NodeTest : public ::testing::Test {
  protected:
