@@ -1,0 +1,69 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+
+#include "capture/mcap/definitions.hpp"
+#include "capture/mcap/file_writer.hpp"
+
+namespace coop::mcap {
+
+enum class Sync {
+  kNever,  // the system writes when it likes: a killed process loses nothing, a power cut seconds
+  kEachFile,   // when a file is finished
+  kEachChunk,  // after each chunk: a power cut loses the last one
+};
+
+/// How files of a capture are made.
+struct FileOptions {
+  Header header{"ros2", "coop"};
+  Layout layout;
+  Sync sync = Sync::kNever;
+};
+
+/// Whether an attachment or metadata is in each file of a series, or only in the one being written.
+enum class Where { kThisFile, kEveryFile };
+
+struct StoredAttachment {
+  Attachment attachment;  // a view of `data`
+  std::vector<std::byte> data;
+};
+
+/// Where a writer's chunks go. One thread calls; what throws (std::system_error) left the target as
+/// it was, or in a state where all further calls throw the same.
+class ChunkTarget {
+ public:
+  virtual ~ChunkTarget() = default;
+  virtual void add(const ReadyChunk& chunk) = 0;
+  virtual void add(std::shared_ptr<const StoredAttachment> attachment, Where where) = 0;
+  virtual void add(const Metadata& metadata, Where where) = 0;
+  /// What is kept in memory, as a complete file. Throws std::logic_error where nothing is.
+  virtual std::uint64_t write_snapshot(const std::filesystem::path& path) = 0;
+  virtual void finish() = 0;
+  /// The files written or begun, and how long they are together.
+  [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
+  [[nodiscard]] virtual std::uint64_t bytes() const = 0;
+
+ protected:
+  std::vector<std::filesystem::path> files_;
+};
+
+/// Files one after the other.
+struct Series {
+  /// NAME.mcap; where it is split: NAME_0001.mcap, NAME_0002.mcap, ...
+  std::filesystem::path path;
+  std::uint64_t split_bytes = 0;   // 0: no limit
+  Nanoseconds split_duration = 0;  // of log time; 0: no limit
+};
+[[nodiscard]] std::unique_ptr<ChunkTarget> make_series(const Series& series,
+                                                       const FileOptions& options,
+                                                       const Definitions& definitions);
+
+/// The last chunks, in memory.
+struct Ring {
+  Nanoseconds duration = 0;   // of log time
+  std::size_t max_bytes = 0;  // as compressed
+};
+[[nodiscard]] std::unique_ptr<ChunkTarget> make_ring(const Ring& ring, const FileOptions& options,
+                                                     const Definitions& definitions);
+
+}  // namespace coop::mcap
