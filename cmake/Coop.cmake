@@ -15,10 +15,6 @@ target_compile_options(coop_options INTERFACE
   -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict
   # One result on every processor: no contraction to fused multiply-add.
   -ffp-contract=off)
-if(CMAKE_UNITY_BUILD)
-  # Every source looks like a header to the compiler then; what is hidden in one may stand in another's members.
-  target_compile_options(coop_options INTERFACE -Wno-subobject-linkage)
-endif()
 if(COOP_SANITIZER)
   target_compile_options(coop_options INTERFACE -fsanitize=${COOP_SANITIZER} -fno-omit-frame-pointer)
   target_link_options(coop_options INTERFACE -fsanitize=${COOP_SANITIZER})
@@ -70,9 +66,10 @@ function(coop_node name)
   add_dependencies(programs ${name})
 endfunction()
 
-# coop_test(NAME SOURCES ... [LINK ...] [LABELS unit|component|system]): a GoogleTest program NAME
+# coop_test(NAME SOURCES ... [LINK ...] [LABELS unit|component|system] [SEPARATE]): a GoogleTest program NAME.
+# SEPARATE: its sources use the same names for different things and cannot share a translation unit.
 function(coop_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "SEPARATE" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
@@ -88,6 +85,9 @@ function(coop_test name)
   target_link_libraries(${name} PRIVATE coop_options ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_options(${name} PRIVATE ${coop_test_options})
   coop_use_precompiled(${name} test)
+  if(COOP_UNITY_TESTS AND NOT ARG_SEPARATE)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  endif()
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
   add_test(NAME ${name} COMMAND ${name})
   foreach(label IN LISTS ARG_LABELS)

@@ -10,7 +10,7 @@ namespace coop::runtime {
 namespace {
 
 /// How long a program that ends waits, in all, for readers that have missed its last messages.
-constexpr std::chrono::milliseconds kLastWords{300};
+constexpr std::chrono::milliseconds kLastWords{500};
 
 /// Takes from a reader and calls back.
 class Subscription : public InputSource {

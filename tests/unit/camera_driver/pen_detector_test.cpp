@@ -39,7 +39,7 @@ class OverheadPen : public testing::Test {
   }
 
   OverheadMount mount_;
-  world::World pen_ = test::room(50, 30);
+  world::World pen_ = coop::test::room(50, 30);
   world::GroundTruth scene_;
 };
 

@@ -4,12 +4,12 @@
 
 #include <numbers>
 
+#include "unit/core/at.hpp"
+
 namespace coop {
 namespace {
 
-Time at(double seconds) {
-  return time_from_seconds(seconds);
-}
+using test::at;
 
 TEST(OdometryTrack, InterpolatesBetweenReadingsTheShortWayRound) {
   OdometryTrack track;

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "unit/core/at.hpp"
+
 namespace coop {
 namespace {
 
-Time at(double seconds) {
-  return time_from_seconds(seconds);
-}
+using test::at;
 
 class ScanQueueTest : public testing::Test {
  protected:

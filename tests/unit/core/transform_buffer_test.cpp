@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "unit/core/at.hpp"
+
 namespace coop {
 namespace {
 
-Time at(double value) {
-  return time_from_seconds(value);
-}
+using test::at;
 
 class TransformBufferTest : public ::testing::Test {
  protected:

@@ -15,15 +15,13 @@ namespace {
 using test::draw;
 using test::make_grid;
 
-constexpr double kSqrt2 = std::numbers::sqrt2;
-
 TEST(Dijkstra, TakesDiagonalsInTheOpen) {
   const TraversalGrid grid = make_grid(draw({"....",  //
                                              "....",  //
                                              "...."}));
   const auto path = Dijkstra().plan(grid, {0, 0}, {3, 2});
   ASSERT_TRUE(path);
-  EXPECT_NEAR(path->cost, 1.0 + 2.0 * kSqrt2, 1e-9);
+  EXPECT_NEAR(path->cost, 1.0 + 2.0 * std::numbers::sqrt2, 1e-9);
   EXPECT_EQ(path->cells.front(), (Cell{0, 0}));
   EXPECT_EQ(path->cells.back(), (Cell{3, 2}));
   EXPECT_EQ(path->cells.size(), 4U);
@@ -52,7 +50,7 @@ TEST(Dijkstra, GoesRoundARestrictedZoneWhereThatIsCheaper) {
                                        {.restricted_weight = 6.0});
   const auto path = Dijkstra().plan(grid, {0, 1}, {4, 1});
   ASSERT_TRUE(path);
-  EXPECT_NEAR(path->cost, 2.0 + 2.0 * kSqrt2, 1e-9);
+  EXPECT_NEAR(path->cost, 2.0 + 2.0 * std::numbers::sqrt2, 1e-9);
   for (const Cell cell : path->cells) EXPECT_FALSE(cell == (Cell{2, 1}));
 }
 

@@ -17,8 +17,6 @@ namespace {
 using test::draw;
 using test::make_grid;
 
-constexpr double kSqrt2 = std::numbers::sqrt2;
-
 /// What holds for every planner of the family.
 template <class Planner>
 class GridPlanners : public testing::Test {};
@@ -99,7 +97,7 @@ TYPED_TEST(OctilePlanners, GoRoundAWallByTheShortestWay) {
   const auto path = TypeParam().plan(grid, {1, 0}, {5, 0});
   ASSERT_TRUE(path);
   // (1,0) (2,1) (2,2) (2,3) (3,3) (4,3) (4,2) (4,1) (5,0)
-  EXPECT_NEAR(path->cost, 6.0 + 2.0 * kSqrt2, 1e-6);
+  EXPECT_NEAR(path->cost, 6.0 + 2.0 * std::numbers::sqrt2, 1e-6);
   EXPECT_EQ(path->cells.size(), 9U);
   expect_valid_steps(grid, *path);
 }

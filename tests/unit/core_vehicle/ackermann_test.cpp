@@ -4,19 +4,16 @@
 
 #include <numbers>
 
+#include "unit/core_vehicle/base.hpp"
+
 namespace coop::vehicle {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-const AckermannGeometry kBase{.wheelbase = 0.5,
-                              .track = 0.4,
-                              .wheel_radius = 0.1,
-                              .max_steering_angle = 0.6,
-                              .max_steering_rate = 0.8};
+using test::kBase;
 
 TEST(Ackermann, SteeringOf45DegreesTurnsOnACircleOfTheWheelbase) {
-  EXPECT_NEAR(curvature_of(kBase, kPi / 4), 1.0 / 0.5, 1e-12);
-  const Twist2 twist = twist_of(kBase, 0.3, kPi / 4);
+  EXPECT_NEAR(curvature_of(kBase, std::numbers::pi / 4), 1.0 / 0.5, 1e-12);
+  const Twist2 twist = twist_of(kBase, 0.3, std::numbers::pi / 4);
   EXPECT_DOUBLE_EQ(twist.v, 0.3);
   EXPECT_NEAR(twist.omega, 0.6, 1e-12);
 }
@@ -24,9 +21,9 @@ TEST(Ackermann, SteeringOf45DegreesTurnsOnACircleOfTheWheelbase) {
 TEST(Ackermann, SteeringFollowsFromTheTwistForwardAndBackward) {
   AckermannGeometry wide = kBase;
   wide.max_steering_angle = 1.0;
-  EXPECT_NEAR(steering_of(wide, {0.3, 0.6}, 0.0), kPi / 4, 1e-12);
-  EXPECT_NEAR(steering_of(wide, {-0.3, -0.6}, 0.0), kPi / 4, 1e-12);
-  EXPECT_NEAR(steering_of(wide, {-0.3, 0.6}, 0.0), -kPi / 4, 1e-12);
+  EXPECT_NEAR(steering_of(wide, {0.3, 0.6}, 0.0), std::numbers::pi / 4, 1e-12);
+  EXPECT_NEAR(steering_of(wide, {-0.3, -0.6}, 0.0), std::numbers::pi / 4, 1e-12);
+  EXPECT_NEAR(steering_of(wide, {-0.3, 0.6}, 0.0), -std::numbers::pi / 4, 1e-12);
 }
 
 TEST(Ackermann, ATurnTighterThanTheSteeringAllowsGetsTheLimit) {
@@ -53,10 +50,10 @@ TEST(Ackermann, WheelsRollOnCirclesAboutOneCentre) {
 
 TEST(Ackermann, AQuarterCircleEndsWhereItMust) {
   // Radius 2 m to the left from the origin along x: centre (0, 2), end (2, 2) facing y.
-  const Pose2 end = advance_along_arc({0, 0, 0}, kPi, kPi / 2);
+  const Pose2 end = advance_along_arc({0, 0, 0}, std::numbers::pi, std::numbers::pi / 2);
   EXPECT_NEAR(end.x, 2.0, 1e-12);
   EXPECT_NEAR(end.y, 2.0, 1e-12);
-  EXPECT_NEAR(end.yaw, kPi / 2, 1e-12);
+  EXPECT_NEAR(end.yaw, std::numbers::pi / 2, 1e-12);
 }
 
 TEST(Ackermann, ManySmallArcsMakeTheSameCircleAsOne) {

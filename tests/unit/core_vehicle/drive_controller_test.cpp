@@ -2,14 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "unit/core_vehicle/base.hpp"
+
 namespace coop::vehicle {
 namespace {
 
-const AckermannGeometry kBase{.wheelbase = 0.5,
-                              .track = 0.4,
-                              .wheel_radius = 0.1,
-                              .max_steering_angle = 0.6,
-                              .max_steering_rate = 0.8};
+using test::kBase;
 constexpr Duration kTick = std::chrono::milliseconds(10);
 
 /// Drives a controller with one command repeated at every tick.

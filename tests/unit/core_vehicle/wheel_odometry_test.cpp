@@ -5,15 +5,12 @@
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
+#include "unit/core_vehicle/base.hpp"
+
 namespace coop::vehicle {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-const AckermannGeometry kBase{.wheelbase = 0.5,
-                              .track = 0.4,
-                              .wheel_radius = 0.1,
-                              .max_steering_angle = 0.6,
-                              .max_steering_rate = 0.8};
+using test::kBase;
 
 WheelReading reading(double s, std::int64_t left, std::int64_t right, double steering) {
   return {time_from_seconds(s), left, right, steering};
@@ -42,13 +39,14 @@ TEST(WheelOdometry, ASteeredQuarterCircleEndsWhereItMust) {
   const double steering = std::atan(0.5);
   odometry.update(reading(1.0, 0, 0, steering));
   for (int i = 1; i <= 10; ++i) {
-    odometry.update(reading(1.0 + 0.1 * i, static_cast<std::int64_t>(0.8e6 * kPi / 20 * i),
-                            static_cast<std::int64_t>(1.2e6 * kPi / 20 * i), steering));
+    odometry.update(
+        reading(1.0 + 0.1 * i, static_cast<std::int64_t>(0.8e6 * std::numbers::pi / 20 * i),
+                static_cast<std::int64_t>(1.2e6 * std::numbers::pi / 20 * i), steering));
   }
   EXPECT_NEAR(odometry.odometry().base_in_odom.x, 1.0, 1e-5);
   EXPECT_NEAR(odometry.odometry().base_in_odom.y, 1.0, 1e-5);
-  EXPECT_NEAR(odometry.odometry().base_in_odom.yaw, kPi / 2, 1e-5);
-  EXPECT_NEAR(odometry.odometry().velocity.omega, kPi / 2, 1e-4);
+  EXPECT_NEAR(odometry.odometry().base_in_odom.yaw, std::numbers::pi / 2, 1e-5);
+  EXPECT_NEAR(odometry.odometry().velocity.omega, std::numbers::pi / 2, 1e-4);
 }
 
 TEST(OdometryIntegrator, CovarianceOfAStraightLineFollowsByHand) {

@@ -32,7 +32,7 @@ MissionState state_with(int picked) {
 
 class JournalTest : public ::testing::Test {
  protected:
-  test::TemporaryFolder folder_;
+  coop::test::TemporaryFolder folder_;
   std::filesystem::path path_ = folder_.path() / "mission.journal";
 };
 
