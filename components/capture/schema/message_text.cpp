@@ -99,7 +99,7 @@ class JsonWriter {
 class YamlWriter {
  public:
   YamlWriter(std::string& out, const TextOptions& options)
-      : out_(out), cut_(options.max_elements) {}
+      : out_(out), cut_(options.max_elements), level_(options.indent) {}
 
   void begin_message(const FieldLayout& field, std::size_t index) {
     if (!cut_.hides(index)) {
@@ -187,7 +187,7 @@ class YamlWriter {
   std::string& out_;
   Cut cut_;
   std::vector<std::size_t> counts_;
-  std::size_t level_ = 0;
+  std::size_t level_;
   bool after_dash_ = false;
 };
 

@@ -9,6 +9,8 @@ namespace coop::capture {
 struct TextOptions {
   /// Arrays longer than this are cut, with "..." as their last element.
   std::size_t max_elements = std::numeric_limits<std::size_t>::max();
+  /// Levels by which YAML is moved to the right.
+  std::size_t indent = 0;
 };
 
 /// The message as YAML, as people know it from ROS 2's `topic echo`: two spaces a level, elements

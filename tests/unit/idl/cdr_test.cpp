@@ -1,7 +1,5 @@
 // The bytes on the wire: two messages written by hand, and every type against an encoder of our own
 // that knows only the IDL text.
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +9,7 @@
 #include "idl_headers.hpp"
 #include "idl_lists.hpp"
 #include "unit/idl/cdr_sample.hpp"
+#include "unit/idl/fast_cdr.hpp"
 #include "unit/idl/topic_type.hpp"
 
 namespace coop::test {
@@ -33,26 +32,6 @@ std::vector<NamedTopicType> topic_types() {
 const Schema& schema() {
   static const Schema kSchema = load_idl(std::filesystem::path(COOP_SOURCE_DIR) / "idl");
   return kSchema;
-}
-
-template <class T>
-Bytes reencode(const Bytes& bytes) {
-  Bytes copy = bytes;
-  eprosima::fastcdr::FastBuffer in(reinterpret_cast<char*>(copy.data()), copy.size());
-  eprosima::fastcdr::Cdr reader(in, eprosima::fastcdr::Cdr::DEFAULT_ENDIAN,
-                                eprosima::fastcdr::Cdr::DDS_CDR);
-  reader.read_encapsulation();
-  T value;
-  value.deserialize(reader);
-
-  Bytes result(bytes.size());
-  eprosima::fastcdr::FastBuffer out(reinterpret_cast<char*>(result.data()), result.size());
-  eprosima::fastcdr::Cdr writer(out, eprosima::fastcdr::Cdr::DEFAULT_ENDIAN,
-                                eprosima::fastcdr::Cdr::DDS_CDR);
-  writer.serialize_encapsulation();
-  value.serialize(writer);
-  EXPECT_EQ(writer.getSerializedDataLength(), bytes.size());
-  return result;
 }
 
 // clang-format off

@@ -28,12 +28,12 @@ struct Message {
 
 using Schema = std::map<std::string, Message>;  ///< by "package/Type"
 
-/// Reads the text of <package>/msg/<Type>.msg. Constants are left out. Throws std::runtime_error
-/// with the line at fault.
+/// Reads the text of <package>/msg/<Type>.msg. Constants are left out. Throws
+/// capture::DefinitionError with the line at fault.
 Message parse_msg(const std::string& package, const std::string& text);
 
 /// Reads one IDL file of ours: modules, one struct, and a module of constants. Throws
-/// std::runtime_error.
+/// capture::DefinitionError.
 Message parse_idl(const std::string& text);
 
 /// Reads all <package>/msg/*.idl below the folder.
