@@ -91,8 +91,14 @@ void ArrivalConfig::describe(config::Fields& fields) {
 void RecoveryConfig::describe(config::Fields& fields) {
   fields.number("input_timeout", input_timeout,
                 {.unit = "s",
-                 .help = "odometry, transform or scan older than this stop the base",
+                 .help = "odometry or a scan older than this stops the base",
                  .min = 0.05,
+                 .max = 10});
+  fields.number("transform_timeout", transform_timeout,
+                {.unit = "s",
+                 .help = "so long after the time it was dated ahead for, the transform map -> odom "
+                         "stops the base",
+                 .min = 0.02,
                  .max = 10});
   fields.number(
       "blocked_time", blocked_time,

@@ -64,7 +64,10 @@ struct ArrivalConfig {
 };
 
 struct RecoveryConfig {
-  double input_timeout = 0.5;  ///< s: odometry, transform or scan older than this stop the base
+  /// s: odometry or a scan older than this stops the base: in time to have begun 0.3 s after the
+  /// last of them, with a control period to spare.
+  double input_timeout = 0.25;
+  double transform_timeout = 0.05;  ///< s: the same of the transform, which is dated ahead
   double blocked_time = 1.5;  ///< s without an admissible trajectory before a new plan is asked for
   double patience = 4.0;      ///< s blocked before the base backs up
   double back_up_distance = 0.5;  ///< m along the track it came on

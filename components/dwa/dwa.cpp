@@ -73,9 +73,10 @@ DwaOutput Dwa::update(const DwaInputs& inputs, Time now) {
 }
 
 DriveReason Dwa::check_inputs(const DwaInputs& inputs, Time now, std::string& detail) const {
-  const auto stale = [&](std::optional<Time> stamp, const char* what) {
+  const RecoveryConfig& limits = config_.recovery;
+  const auto stale = [&](std::optional<Time> stamp, const char* what, double timeout) {
     const double age = stamp ? to_seconds(now - *stamp) : 0.0;
-    if (stamp && std::abs(age) <= config_.recovery.input_timeout) return false;
+    if (stamp && std::abs(age) <= timeout) return false;
     detail = std::string("no ") + what + (stamp ? " for " + seconds_text(age) : " yet");
     return true;
   };
@@ -84,11 +85,13 @@ DriveReason Dwa::check_inputs(const DwaInputs& inputs, Time now, std::string& de
     return DriveReason::kEmergencyStop;
   }
   const auto odometry = inputs.odometry ? std::optional(inputs.odometry->stamp) : std::nullopt;
-  if (stale(odometry, "odometry")) return DriveReason::kNoPose;
+  if (stale(odometry, "odometry", limits.input_timeout)) return DriveReason::kNoPose;
   const auto transform =
       inputs.odom_in_map ? std::optional(inputs.odom_in_map->stamp) : std::nullopt;
-  if (stale(transform, "transform map to odom")) return DriveReason::kNoPose;
-  if (stale(inputs.scan_stamp, "scan")) return DriveReason::kSensorStale;
+  if (stale(transform, "transform map to odom", limits.transform_timeout)) {
+    return DriveReason::kNoPose;
+  }
+  if (stale(inputs.scan_stamp, "scan", limits.input_timeout)) return DriveReason::kSensorStale;
   return DriveReason::kNone;
 }
 

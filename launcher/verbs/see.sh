@@ -83,7 +83,7 @@ run_experiment_program() { # name arguments...
 verb_experiment() {
   case ${1:-} in
     navigation) verb_sweep "$@" ;;
-    casma) run_experiment_program "$@" ;;
-    *) die "experiments: navigation, casma; not '${1:-}'" ;;
+    casma | restart) run_experiment_program "$@" ;;
+    *) die "experiments: navigation, casma, restart; not '${1:-}'" ;;
   esac
 }

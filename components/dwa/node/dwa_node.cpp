@@ -132,7 +132,7 @@ void DwaNode::integrate_scans() {
                    const auto pose = scan_pose(transforms_, "odom", scan, base_in_odom);
                    if (!pose) return;
                    dwa_.local_map().integrate(scan, *pose);
-                   inputs_.scan_stamp = scan.stamp;
+                   inputs_.scan_stamp = scan.stamp + scan.sweep_duration();
                  });
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <string>
 
 #include "runtime/dds_transport.hpp"
@@ -20,6 +21,8 @@ class Listener {
   [[nodiscard]] runtime::Node& node() { return node_; }
   /// Takes in what has arrived.
   void look() { executor_.run_once(); }
+  /// The same, once something has arrived or `limit` has passed.
+  void wait(std::chrono::milliseconds limit) { executor_.wait_and_run(limit); }
 
  private:
   static runtime::Options options(const std::string& name) {

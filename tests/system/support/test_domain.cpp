@@ -1,5 +1,6 @@
 #include "system/support/test_domain.hpp"
 
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 
@@ -19,7 +20,9 @@ struct Claim {
 };
 
 Claim claim_domain() {
-  for (int domain = kFirst; domain <= kLast; ++domain) {
+  const char* wanted = std::getenv("COOP_TEST_DOMAIN");
+  const int first = wanted != nullptr ? std::atoi(wanted) : kFirst;
+  for (int domain = first; domain <= kLast; ++domain) {
     auto socket = launcher::listen_unix("@coop/test-domain/" + std::to_string(domain));
     if (socket) return {domain, std::move(*socket)};
   }

@@ -3,7 +3,8 @@
 namespace coop::test {
 
 /// A DDS domain that no other test process on this machine uses, the same throughout this process.
-/// Throws std::runtime_error where all are taken.
+/// COOP_TEST_DOMAIN in the environment is where the search begins. Throws std::runtime_error where
+/// all are taken.
 [[nodiscard]] int test_domain();
 
 }  // namespace coop::test

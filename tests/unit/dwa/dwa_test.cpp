@@ -173,6 +173,23 @@ TEST_F(DwaTest, StopsWhenTheTransformIsOld) {
   EXPECT_EQ(step().reason, DriveReason::kNoPose);
 }
 
+TEST_F(DwaTest, BrakesWithinThreeTenthsOfASecondOfTheLastScan) {
+  dwa_.set_plan("1", straight(0, 3));
+  run(1.0);
+  scanning_ = false;
+  EXPECT_GT(run(0.2).command.v, 0.0) << "two scans late are no reason";
+  EXPECT_EQ(run(0.1).command, (Twist2{}));
+}
+
+TEST_F(DwaTest, BrakesAsSoonAsTheTransformIsOverdue) {
+  dwa_.set_plan("1", straight(0, 3));
+  run(1.0);
+  transform_age_ = seconds(0.04);
+  EXPECT_GT(step().command.v, 0.0);
+  transform_age_ = seconds(0.06);
+  EXPECT_EQ(step().reason, DriveReason::kNoPose);
+}
+
 TEST_F(DwaTest, StopsWhenTheScanIsOldAndGoesOnWithTheNextOne) {
   dwa_.set_plan("1", straight(0, 3));
   run(1.0);
