@@ -38,17 +38,19 @@ bool is_plausible_record(RecordStream& stream, std::uint64_t offset) {
 }
 
 std::uint64_t find_chunk(RecordStream& stream, std::uint64_t offset) {
+  std::vector<std::byte> window;
   while (offset < stream.end()) {
-    const std::uint64_t size = std::min(kSearchWindow, stream.end() - offset);
-    const Bytes window = stream.bytes(offset, size);
-    const void* hit = std::memchr(window.data(), static_cast<int>(Opcode::kChunk), window.size());
-    if (hit == nullptr) {
-      offset += size;
-      continue;
+    // A copy: looking closer at a place moves the stream's own window.
+    const Bytes bytes = stream.bytes(offset, std::min(kSearchWindow, stream.end() - offset));
+    window.assign(bytes.begin(), bytes.end());
+    for (std::size_t i = 0; i < window.size(); ++i) {
+      const void* hit =
+          std::memchr(&window[i], static_cast<int>(Opcode::kChunk), window.size() - i);
+      if (hit == nullptr) break;
+      i = static_cast<std::size_t>(static_cast<const std::byte*>(hit) - window.data());
+      if (is_plausible_record(stream, offset + i)) return offset + i;
     }
-    offset += static_cast<std::uint64_t>(static_cast<const std::byte*>(hit) - window.data());
-    if (is_plausible_record(stream, offset)) return offset;
-    ++offset;
+    offset += window.size();
   }
   return stream.end();
 }

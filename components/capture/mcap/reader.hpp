@@ -17,7 +17,7 @@ enum class Order {
 struct Selection {
   Nanoseconds start = 0;                                      // log time, from here on
   Nanoseconds end = std::numeric_limits<Nanoseconds>::max();  // before this; the default: all
-  std::vector<std::string> topics;                            // empty: all
+  std::vector<std::string> topics{};                          // empty: all
   Order order = Order::kLogTime;
 
   [[nodiscard]] bool has(Nanoseconds time) const {

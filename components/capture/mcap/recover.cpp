@@ -18,6 +18,7 @@ class Recovery {
         out_(std::move(sink), begin_.header, options.layout),
         compressor_(options.compression, options.level),
         // False chunks found in garbage cost time; what they may cost together is bounded.
+        search_from_(begin_.data_begin),
         waste_left_(16 * source->size() + (std::uint64_t{64} << 20U)) {
     take_definitions_of_summary(source);
   }
@@ -70,6 +71,9 @@ class Recovery {
         throw FileError(offset, name_of(place->opcode) + " where a record should begin");
       }
       take(*place);
+      // A chunk that is good is not looked into again; of another record the length may be wrong.
+      const bool checked = place->opcode == Opcode::kChunk || place->opcode == Opcode::kAttachment;
+      search_from_ = std::max(search_from_, checked ? place->end() : offset + 1);
     } catch (const FileError& error) {
       note(error);
       if (!salvage_cut_chunk(offset)) resume_after(offset);
@@ -81,13 +85,30 @@ class Recovery {
     return offset == stream_.end() || is_plausible_record(stream_, offset);
   }
 
-  /// Behind the damaged record if there is one, else at the next chunk.
+  /// Behind the damaged record if there is one, else at the next chunk: that may lie in the record
+  /// before, should its length be what is damaged.
   void resume_after(std::uint64_t offset) {
     const std::uint64_t behind = stream_.position();
-    if (behind > offset && is_plausible_record(stream_, behind)) return;
-    const std::uint64_t found = find_chunk(stream_, offset + 1);
-    report_.skipped_bytes += found - offset;
+    const bool is_record = behind > offset;
+    if (is_record && is_plausible_record(stream_, behind)) return;
+    const std::uint64_t from = is_record ? std::max(search_from_, offset + 1) : search_from_;
+    const std::uint64_t found = find_chunk(stream_, from);
+    search_from_ = found + 1;
+    if (found > offset) {
+      report_.skipped_bytes += found - offset;
+    } else {
+      spend(offset - found);
+    }
     stream_.seek(found);
+  }
+
+  /// What damage makes us read twice.
+  void spend(std::uint64_t bytes) {
+    if (bytes > waste_left_) {
+      note(FileError(stream_.position(), "too much damage: the rest is given up"));
+      ended_ = true;
+    }
+    waste_left_ -= std::min(bytes, waste_left_);
   }
 
   void take(const RecordStream::Place& place) {
@@ -170,12 +191,7 @@ class Recovery {
     } catch (const FileError&) {
       ++report_.lost_chunks;
       after_lost_chunk_ = true;
-      const std::uint64_t cost = place.content_length;
-      if (cost > waste_left_) {
-        ended_ = true;
-        throw FileError(place.offset, "too much damage: the rest is given up");
-      }
-      waste_left_ -= cost;
+      spend(place.content_length);
       throw;
     }
   }
@@ -310,6 +326,7 @@ class Recovery {
   std::map<std::uint16_t, Schema> schemas_;
   std::map<std::uint16_t, Channel> channels_;
   ChunkBuilder salvaged_;
+  std::uint64_t search_from_;  // for chunks, after damage
   std::uint64_t waste_left_;
   bool summary_was_good_ = false;
   bool after_lost_chunk_ = false;

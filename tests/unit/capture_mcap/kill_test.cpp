@@ -1,0 +1,137 @@
+/// Captures killed at random moments. COOP_MCAP_KILLS: how many (20).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <random>
+
+#include "capture/mcap/recover.hpp"
+#include "support/temporary_folder.hpp"
+#include "unit/capture_mcap/capture.hpp"
+
+namespace coop::mcap {
+namespace {
+
+/// What the child tells before it is killed.
+struct Progress {
+  std::atomic<std::uint64_t> taken{0};  // messages that write() has accepted
+};
+
+class SharedProgress {
+ public:
+  SharedProgress() {
+    void* memory = ::mmap(nullptr, sizeof(Progress), PROT_READ | PROT_WRITE,
+                          MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    progress_ = new (memory) Progress;
+  }
+  ~SharedProgress() { ::munmap(progress_, sizeof(Progress)); }
+  SharedProgress(const SharedProgress&) = delete;
+  SharedProgress& operator=(const SharedProgress&) = delete;
+  Progress* operator->() { return progress_; }
+  Progress& operator*() { return *progress_; }
+
+ private:
+  Progress* progress_;
+};
+
+/// How one capture is made; all of it from the seed.
+struct Plan {
+  WriterOptions options;
+  std::size_t message_size = 0;
+  useconds_t lifetime = 0;
+
+  explicit Plan(unsigned seed) {
+    std::mt19937 random(seed);
+    const auto pick = [&](std::size_t low, std::size_t high) {
+      return std::uniform_int_distribution<std::size_t>(low, high)(random);
+    };
+    constexpr std::array kAll{Compression::kNone, Compression::kLz4, Compression::kZstd};
+    options.compression = kAll[pick(0, 2)];
+    options.chunk_bytes = pick(4'000, 400'000);
+    // One chunk being filled and one on its way: the least there can be.
+    options.queue_bytes = 1;
+    options.when_full = WhenFull::kWait;
+    message_size = pick(10, 3'000);
+    lifetime = static_cast<useconds_t>(pick(0, 40'000));
+  }
+  [[nodiscard]] std::size_t messages_in_chunk() const {
+    return options.chunk_bytes / (message_size + kRecordPrefix + kMessagePrefix) + 1;
+  }
+};
+
+[[noreturn]] void capture_until_killed(const Plan& plan, const std::filesystem::path& path,
+                                       Progress& progress) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  Writer writer(Series{path}, plan.options);
+  const std::uint16_t channel = writer.add_channel(writer.add_schema("a", "ros2msg", "b"), "/a");
+  std::string text(plan.message_size, ' ');
+  std::mt19937 random(1);
+  for (char& c : text) c = static_cast<char>(random());
+  for (std::uint64_t i = 0;; ++i) {
+    text[i % text.size()] = static_cast<char>(random());
+    writer.write({channel, static_cast<std::uint32_t>(i), i, i, test::bytes_of(text)});
+    progress.taken = i + 1;
+  }
+}
+
+/// Runs the capture and kills it. False where the file was not even there yet.
+bool capture_and_kill(const Plan& plan, const std::filesystem::path& path, Progress& progress) {
+  const pid_t child = ::fork();
+  if (child == 0) capture_until_killed(plan, path, progress);
+  if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
+  ::usleep(plan.lifetime);  // the random moment
+  ::kill(child, SIGKILL);
+  int status = 0;
+  EXPECT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFSIGNALED(status)) << "the child ended by itself";
+  return std::filesystem::exists(path) &&
+         std::filesystem::file_size(path) > kMagic.size() + kRecordPrefix;
+}
+
+TEST(Kill, ACaptureKilledAtAnyMomentIsRecoveredButForItsLastChunk) {
+  const char* wanted = std::getenv("COOP_MCAP_KILLS");
+  const int kills = wanted == nullptr ? 20 : std::atoi(wanted);
+  const coop::test::TemporaryFolder folder;
+  int begun = 0;
+  int cut = 0;
+  std::uint64_t taken = 0;
+  std::uint64_t missing = 0;
+  for (int i = 0; i < kills; ++i) {
+    const Plan plan(static_cast<unsigned>(i));
+    const auto path = folder.path() / (std::to_string(i) + ".mcap");
+    SharedProgress progress;
+    if (!capture_and_kill(plan, path, *progress)) continue;
+    ++begun;
+    std::vector<std::byte> bytes;
+    const RecoverReport report = recover(open_file(path), write_to_memory(bytes));
+    std::filesystem::remove(path);
+    Reader reader(open_memory(std::move(bytes)));
+    ASSERT_TRUE(reader.summary().complete);
+    std::uint64_t next = 0;
+    MessageCursor cursor = reader.messages();
+    while (const auto read = cursor.next()) ASSERT_EQ(read->message.sequence, next++) << "a gap";
+    EXPECT_LE(report.lost_chunks, 1U) << "seed " << i;
+    // Beyond the chunk that the kill has cut, only the one being filled is missing.
+    EXPECT_GE(next + 2 * plan.messages_in_chunk(), progress->taken) << "seed " << i;
+    cut += report.lost_chunks > 0 ? 1 : 0;
+    taken += progress->taken;
+    missing += progress->taken > next ? progress->taken - next : 0;
+  }
+  EXPECT_GE(begun, kills / 2);
+  std::printf(
+      "%d captures killed, %d had begun their file, %d were cut inside a chunk; %llu messages "
+      "written, %llu of them missing\n",
+      kills, begun, cut, static_cast<unsigned long long>(taken),
+      static_cast<unsigned long long>(missing));
+}
+
+}  // namespace
+}  // namespace coop::mcap
