@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstring>
 
+#include "core/runtime_folder.hpp"
 #include "launcher/system_lock.hpp"
 #include "launcher/unix_socket.hpp"
 
@@ -33,7 +34,7 @@ std::vector<Found> find_launchers(std::optional<int> domain,
                                   const std::optional<std::string>& robot) {
   std::vector<Found> found;
   std::vector<std::filesystem::path> seen;
-  for (const auto& folder : control_folders()) {
+  for (const auto& folder : runtime_folders()) {
     std::error_code error;
     const auto canonical = std::filesystem::canonical(folder, error);
     if (error || std::ranges::find(seen, canonical) != seen.end()) continue;

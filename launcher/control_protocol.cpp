@@ -1,9 +1,8 @@
 #include "launcher/control_protocol.hpp"
 
-#include <unistd.h>
-
-#include <cstdlib>
 #include <nlohmann/json.hpp>
+
+#include "core/runtime_folder.hpp"
 
 namespace coop::launcher {
 namespace {
@@ -92,21 +91,8 @@ Result<ControlReply> decode_reply(std::string_view line) {
   }
 }
 
-std::vector<std::filesystem::path> control_folders() {
-  if (const char* chosen = std::getenv("COOP_RUNTIME_DIR")) return {chosen};
-  std::vector<std::filesystem::path> folders;
-  const std::string user = std::to_string(getuid());
-  if (const char* runtime = std::getenv("XDG_RUNTIME_DIR"); runtime != nullptr && *runtime == '/') {
-    folders.emplace_back(std::filesystem::path(runtime) / "coop");
-  }
-  // Found as well from a terminal whose environment lacks the variable.
-  folders.emplace_back(std::filesystem::path("/run/user") / user / "coop");
-  folders.emplace_back(std::filesystem::temp_directory_path() / ("coop-" + user));
-  return folders;
-}
-
 std::string control_file_name(const std::string& robot, int domain) {
-  return std::to_string(domain) + (robot.empty() ? "" : "-" + robot) + ".sock";
+  return system_file_stem(robot, domain) + ".sock";
 }
 
 }  // namespace coop::launcher

@@ -35,10 +35,7 @@ struct ControlReply {
 [[nodiscard]] Result<ControlRequest> decode_request(std::string_view line);
 [[nodiscard]] Result<ControlReply> decode_reply(std::string_view line);
 
-/// Folders in which launchers of this user put their sockets, the preferred one first.
-/// COOP_RUNTIME_DIR in the environment names the only one.
-[[nodiscard]] std::vector<std::filesystem::path> control_folders();
-/// DOMAIN.sock or DOMAIN-ROBOT.sock
+/// In a runtime folder (core/runtime_folder.hpp): DOMAIN.sock or DOMAIN-ROBOT.sock
 [[nodiscard]] std::string control_file_name(const std::string& robot, int domain);
 
 }  // namespace coop::launcher

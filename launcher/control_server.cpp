@@ -5,6 +5,7 @@
 #include <cerrno>
 
 #include "core/config/error.hpp"
+#include "core/runtime_folder.hpp"
 #include "launcher/unix_socket.hpp"
 
 namespace coop::launcher {
@@ -13,20 +14,12 @@ namespace {
 constexpr std::size_t kMaxConnections = 16;
 constexpr std::size_t kMaxLine = 4096;
 
-/// A folder for this user alone; false where it cannot be had (or is somebody else's).
-bool make_private_folder(const std::filesystem::path& folder) {
-  if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) return false;
-  struct stat status {};
-  if (lstat(folder.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) return false;
-  return status.st_uid == geteuid() && (status.st_mode & 077U) == 0;
-}
-
 }  // namespace
 
 ControlServer::ControlServer(EventLoop& loop, const std::string& robot, int domain, Handler handler)
     : loop_(loop), handler_(std::move(handler)) {
   std::string problem = "no folder for it";
-  for (const auto& folder : control_folders()) {
+  for (const auto& folder : runtime_folders()) {
     if (!make_private_folder(folder)) continue;
     path_ = folder / control_file_name(robot, domain);
     std::error_code ignored;

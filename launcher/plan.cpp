@@ -3,20 +3,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
+
+#include "core/name.hpp"
 
 namespace coop::launcher {
 namespace {
 
 using Named = config::Named<Component>;
-
-/// Names become file names, topic keys, partitions and command words.
-bool is_name(const std::string& name) {
-  return !name.empty() && name.size() <= 64 && name[0] != '-' &&
-         std::ranges::all_of(
-             name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; });
-}
 
 void check_name(const std::string& name, const std::string& where) {
   if (is_name(name)) return;

@@ -43,25 +43,43 @@ void sync_folder(const std::filesystem::path& folder) {
   if (fd.get() >= 0) ::fsync(fd.get());  // some file systems refuse; the rename stands all the same
 }
 
-}  // namespace
-
-void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  std::filesystem::create_directories(folder);
+void write_draft_and_rename(const std::filesystem::path& path, const std::filesystem::path& folder,
+                            std::string_view content, bool synced) {
   const std::filesystem::path draft =
       folder / ("." + path.filename().string() + "." + std::to_string(::getpid()) + ".tmp");
   try {
     const FileDescriptor fd(::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
     if (fd.get() < 0) throw_errno("cannot create", draft);
     write_all(fd.get(), content, draft);
-    if (::fsync(fd.get()) != 0) throw_errno("cannot sync", draft);
+    if (synced && ::fsync(fd.get()) != 0) throw_errno("cannot sync", draft);
     std::filesystem::rename(draft, path);
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(draft, ignored);
     throw;
   }
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : ".";
+}
+
+}  // namespace
+
+void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
+  const std::filesystem::path folder = folder_of(path);
+  std::filesystem::create_directories(folder);
+  write_draft_and_rename(path, folder, content, true);
   sync_folder(folder);
+}
+
+bool replace_file(const std::filesystem::path& path, std::string_view content) {
+  try {
+    write_draft_and_rename(path, folder_of(path), content, false);
+    return true;
+  } catch (const std::system_error&) {
+    return false;
+  }
 }
 
 std::string read_file(const std::filesystem::path& path) {

@@ -10,6 +10,10 @@ namespace coop {
 /// permission); the old content then stands.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
+/// The same for what need not outlive the machine: nothing waits for the disk. False where it
+/// cannot be written; the old content then stands.
+[[nodiscard]] bool replace_file(const std::filesystem::path& path, std::string_view content);
+
 /// The whole file. Throws std::system_error naming the file.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
 

@@ -72,6 +72,12 @@ HealthReporter::HealthReporter(const Options& options, std::shared_ptr<Writer> w
   host_ = host;
 }
 
+std::string HealthReporter::leave_file(const Options& options) {
+  file_.emplace(options.robot, options.domain, options.name);
+  beat();
+  return file_->problem();
+}
+
 void HealthReporter::report(Health health, const std::string& detail) {
   if (health == health_ && detail == detail_) return;
   health_ = health;
@@ -93,6 +99,7 @@ void HealthReporter::beat() {
   status.rss_bytes(resident_bytes());
   status.host(host_);
   writer_->write(&status);
+  if (file_) file_->write(to_string(health_), detail_);
   last_beat_ = std::chrono::steady_clock::now();
 }
 

@@ -187,7 +187,8 @@ void Node::publish_static_transform(std::string_view parent, std::string_view ch
 }
 
 void Node::set_starting() {
-  impl_->health->beat();
+  const std::string problem = impl_->health->leave_file(impl_->options);
+  if (!problem.empty()) impl_->log.warning("no state for `coop health`: {}", problem);
 }
 void Node::set_ready() {
   impl_->health->report(Health::kReady, "");
