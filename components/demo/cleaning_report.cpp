@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/atomic_file.hpp"
+#include "core/image/picture_file.hpp"
 #include "core/markup.hpp"
 #include "demo/canvas.hpp"
 #include "demo/figures.hpp"
@@ -82,11 +83,11 @@ std::string pens_table(const std::vector<PenRun>& runs) {
 
 std::string pen_section(const PenRun& run) {
   std::string out = fmt::format("<h2>Pen {}</h2>\n", run.pen) +
-                    image_tag(to_png(draw_pen(run.record)), "the pen, heaps, pigs and the way");
+                    image_tag(encode_png(draw_pen(run.record)), "the pen, heaps, pigs and the way");
   if (!run.record.first_view.empty()) {
     out += "<p>What the camera above saw at the start, and at the end:</p>\n" +
-           image_tag(to_png(run.record.first_view), "picture at the start") +
-           image_tag(to_png(run.record.last_view), "picture at the end");
+           image_tag(encode_png(run.record.first_view), "picture at the start") +
+           image_tag(encode_png(run.record.last_view), "picture at the end");
   }
   return out + figures_table(run.record) + target_table(run.record, "heap");
 }
@@ -132,13 +133,14 @@ std::string render_cleaning_html(const std::vector<PenRun>& runs, const Summary&
     heaps += run.record.eggs_in_world;
     touched += run.record.animal_collisions;
   }
-  std::string body = "<h1>Cleaning in the pig house</h1>\n" +
-                     fmt::format("<p class=\"{}\">{} of {} heaps cleaned, {} pigs touched.</p>\n",
-                                 all_clean(runs) ? "good" : "bad", cleaned, heaps, touched) +
-                     fmt::format("<p>Seed {}, {:.0f} s of wall time, {}.</p>\n", summary.seed,
-                                 summary.wall_seconds, escape_markup(summary.version)) +
-                     image_tag(to_png(draw_house(runs)), "the pig house: eight pens of 5 m x 3 m") +
-                     pens_table(runs);
+  std::string body =
+      "<h1>Cleaning in the pig house</h1>\n" +
+      fmt::format("<p class=\"{}\">{} of {} heaps cleaned, {} pigs touched.</p>\n",
+                  all_clean(runs) ? "good" : "bad", cleaned, heaps, touched) +
+      fmt::format("<p>Seed {}, {:.0f} s of wall time, {}.</p>\n", summary.seed,
+                  summary.wall_seconds, escape_markup(summary.version)) +
+      image_tag(encode_png(draw_house(runs)), "the pig house: eight pens of 5 m x 3 m") +
+      pens_table(runs);
   for (const PenRun& run : runs) body += pen_section(run);
   return html_page("Coop demo: pig pen", body);
 }
@@ -162,8 +164,8 @@ std::string render_cleaning_json(const std::vector<PenRun>& runs, const Summary&
 
 void write_cleaning_report(const std::filesystem::path& folder, const std::vector<PenRun>& runs,
                            const Summary& summary) {
-  write_file_atomically(folder / "run.png", to_png(draw_pen(runs.front().record)));
-  write_file_atomically(folder / "house.png", to_png(draw_house(runs)));
+  write_file_atomically(folder / "run.png", encode_png(draw_pen(runs.front().record)));
+  write_file_atomically(folder / "house.png", encode_png(draw_house(runs)));
   write_file_atomically(folder / "figures.json", render_cleaning_json(runs, summary));
   write_file_atomically(folder / "report.html", render_cleaning_html(runs, summary));
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/atomic_file.hpp"
+#include "core/image/picture_file.hpp"
 #include "core/markup.hpp"
 #include "demo/figures.hpp"
 #include "demo/picture.hpp"
@@ -42,8 +43,8 @@ std::string render_json(const Record& survey, const Record& collection, const Su
 
 void write_report(const std::filesystem::path& folder, const Record& survey,
                   const Record& collection, const Summary& summary) {
-  const std::string run_png = to_png(draw_run(collection));
-  const std::string map_png = to_png(draw_map(survey.map, survey.track));
+  const std::string run_png = encode_png(draw_run(collection));
+  const std::string map_png = encode_png(draw_map(survey.map, survey.track));
   write_file_atomically(folder / "run.png", run_png);
   write_file_atomically(folder / "map.png", map_png);
   write_file_atomically(folder / "figures.json", render_json(survey, collection, summary));

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <opencv2/imgcodecs.hpp>
 
 #include "core/markup.hpp"
 #include "demo/figures.hpp"
@@ -37,12 +36,6 @@ std::string row(const std::string& name, const std::string& value) {
 }
 
 }  // namespace
-
-std::string to_png(const cv::Mat& image) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", image, bytes);
-  return {bytes.begin(), bytes.end()};
-}
 
 std::string image_tag(const std::string& png, std::string_view alt) {
   return "<img alt=\"" + std::string(alt) + "\" src=\"data:image/png;base64," + base64(png) +

@@ -1,6 +1,5 @@
 #pragma once
 #include <nlohmann/json.hpp>
-#include <opencv2/core/mat.hpp>
 #include <string>
 #include <string_view>
 
@@ -9,7 +8,6 @@
 /// What the reports of all demos are made of.
 namespace coop::demo {
 
-[[nodiscard]] std::string to_png(const cv::Mat& image);
 /// An image within the page itself.
 [[nodiscard]] std::string image_tag(const std::string& png, std::string_view alt);
 /// Time, distance, errors, collisions.

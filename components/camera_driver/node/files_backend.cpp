@@ -1,11 +1,10 @@
 #include "camera_driver/node/files_backend.hpp"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "camera_driver/node/camera_driver_node.hpp"
 #include "core/config/error.hpp"
+#include "core/image/picture_file.hpp"
 
 namespace coop::camera_driver {
 
@@ -37,12 +36,12 @@ void FilesBackend::show_next() {
     return;
   }
   const std::filesystem::path& file = files_[next_++];
-  Frame frame{node_.now(), cv::imread(file.string(), cv::IMREAD_COLOR), {}};
-  if (frame.colour.empty()) {
-    node_.log().warning("{} is no picture", file.string());
+  auto picture = read_picture(file);
+  if (!picture) {
+    node_.log().warning("{} is no picture: {}", file.string(), picture.error());
     return;
   }
-  cv::cvtColor(frame.colour, frame.colour, cv::COLOR_BGR2RGB);
+  const Frame frame{node_.now(), std::move(*picture), {}};
   const Intrinsics camera = d435i_intrinsics(frame.colour.cols, frame.colour.rows);
   std::vector<Detection> eggs;
   for (const PhotographedEgg& egg : find_eggs(config_, frame.colour)) {

@@ -7,13 +7,14 @@
 #include <vision_msgs/msg/Detection3DArray.h>
 
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "conversions/detections.hpp"
 #include "conversions/image.hpp"
 #include "conversions/time.hpp"
+#include "core/atomic_file.hpp"
 #include "core/config/error.hpp"
+#include "core/image/picture_file.hpp"
 #include "core/robot/robot_model.hpp"
 #include "core/world/shapes.hpp"
 #include "support/component_fixture.hpp"
@@ -214,9 +215,9 @@ TEST(OverheadBackend, tells_of_pigs_and_manure_in_the_map) {
 TEST(FilesBackend, shows_each_picture_of_a_folder_with_its_eggs_and_ends) {
   const coop::test::TemporaryFolder folder;
   cv::Mat picture(400, 800, CV_8UC3, cv::Scalar(90, 90, 90));
-  cv::imwrite((folder.path() / "1_empty.png").string(), picture);
+  write_file_atomically(folder.path() / "1_empty.png", encode_png(picture));
   cv::ellipse(picture, {400, 200}, {25, 20}, 0, 0, 360, {120, 150, 200}, cv::FILLED, cv::LINE_AA);
-  cv::imwrite((folder.path() / "2_egg.png").string(), picture);
+  write_file_atomically(folder.path() / "2_egg.png", encode_png(picture));
   std::ofstream(folder.path() / "3_broken.png") << "no picture";
   CameraDriverConfig config;
   config.backend = "files";
