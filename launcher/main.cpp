@@ -15,6 +15,7 @@ struct CommandLine {
   std::optional<std::uint64_t> seed;
   std::optional<std::string> run_dir;
   std::string component;
+  std::string override_name;
   bool json = false;
   bool follow = false;
   std::size_t lines = 200;
@@ -64,6 +65,10 @@ int run_verb(const CLI::App& app, const CommandLine& line) {
     check_system(with_overrides(line));
     return 0;
   }
+  if (app.got_subcommand("compose")) {
+    std::cout << compose_system(with_overrides(line), line.override_name);
+    return 0;
+  }
   if (app.got_subcommand("ps")) return show_processes(line.choice, line.json);
   if (app.got_subcommand("down")) return take_down(line.choice);
   if (app.got_subcommand("logs")) {
@@ -93,6 +98,10 @@ int main(int argc, char** argv) {
   up->add_flag("--quiet", line.up.quiet, "print only what goes wrong");
   add_launch(*app.add_subcommand("check", "check a launch file and every configuration it names"),
              line);
+  CLI::App* compose = app.add_subcommand("compose", "print the system as a Compose file");
+  add_launch(*compose, line);
+  compose->add_option("--override", line.override_name, "print this override of it instead")
+      ->check(CLI::IsMember({"host", "security", "hardware"}));
   CLI::App* ps = app.add_subcommand("ps", "components of the running system");
   ps->add_flag("--json", line.json, "as one line of JSON");
   add_choice(*ps, line);

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "launcher/component_check.hpp"
+#include "launcher/compose.hpp"
 #include "launcher/control_server.hpp"
 #include "launcher/dds_base.hpp"
 #include "launcher/dds_health.hpp"
@@ -15,6 +16,7 @@
 #include "launcher/process_table.hpp"
 #include "launcher/process_usage.hpp"
 #include "launcher/run_folder.hpp"
+#include "launcher/service_notifier.hpp"
 #include "launcher/system_lock.hpp"
 #include "runtime/dds_transport.hpp"
 
@@ -83,6 +85,8 @@ class Session {
       loop_.run_once(next_deadline());
       supervisor_.tick(now());
       check_milestones();
+      service_.tick(supervisor_.required_are_up(), now());
+      if (supervisor_.shutting_down()) service_.stopping();
       if (now() >= next_refresh_) {
         display_->refresh(
             view());  // also where nothing is drawn: processor use is measured between two views
@@ -215,6 +219,7 @@ class Session {
   ProcessTable processes_;
   Supervisor supervisor_;
   ControlServer control_;
+  ServiceNotifier service_{begin_};
   UsageMeter meter_;
   std::optional<MissionWatch> mission_;
   Instant next_refresh_ = begin_;
@@ -289,6 +294,18 @@ void check_system(const UpOptions& options) {
   const Launch launch = load_launch(find_launch_file(options.file, places), options.overrides);
   // Nothing is written into a run folder by a check, so there need not be one.
   check_all(make_plan(launch, places, std::filesystem::path(launch.run_dir) / "check"));
+}
+
+std::string compose_system(const UpOptions& options, const std::string& override_name) {
+  const Places places = Places::of_this_program();
+  const auto file = find_launch_file(options.file, places);
+  const Plan plan = make_plan(load_launch(file, options.overrides), places, ImagePlaces().run);
+  const auto from_share =
+      std::filesystem::canonical(file).lexically_relative(std::filesystem::canonical(places.share));
+  std::string title = from_share.string().starts_with("..") ? file.string() : from_share.string();
+  for (const std::string& setting : options.overrides) title += " --set " + setting;
+  return override_name.empty() ? compose_file(plan, places, title)
+                               : compose_override(plan, override_name, title);
 }
 
 }  // namespace coop::launcher

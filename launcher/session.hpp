@@ -30,4 +30,8 @@ struct UpOptions {
 /// Everything run_system() checks before it starts something. Throws config::Error.
 void check_system(const UpOptions& options);
 
+/// The launch file as a Compose file, or the override of that name. Throws config::Error.
+[[nodiscard]] std::string compose_system(const UpOptions& options,
+                                         const std::string& override_name);
+
 }  // namespace coop::launcher

@@ -314,6 +314,13 @@ bool Supervisor::all_ready() const {
   });
 }
 
+bool Supervisor::required_are_up() const {
+  return std::ranges::all_of(slots_, [](const Slot& slot) {
+    return !slot.planned->required || is_up(slot.state) || slot.state == State::kFinished ||
+           slot.state == State::kStopped;
+  });
+}
+
 Outcome Supervisor::outcome() const {
   return outcome_.value_or(Outcome{});
 }

@@ -112,6 +112,8 @@ class Supervisor {
   /// Nothing runs and nothing will.
   [[nodiscard]] bool done() const;
   [[nodiscard]] bool all_ready() const;
+  /// Up, or not missed: finished, or stopped by hand.
+  [[nodiscard]] bool required_are_up() const;
   [[nodiscard]] Outcome outcome() const;
   [[nodiscard]] std::vector<ComponentView> view() const;
 

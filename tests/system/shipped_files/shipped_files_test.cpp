@@ -83,5 +83,23 @@ TEST(ShippedFiles, AreThere) {
   EXPECT_THAT(yaml_files("config/launch"), testing::Contains("config/launch/sim.yaml"));
 }
 
+/// `coop compose config/launch/sim.yaml [--override NAME]` against the file that comes with Coop.
+class ComposeFile : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(ComposeFile, IsWhatTheLaunchFileSays) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments{"compose", (kRoot / "config/launch/sim.yaml").string()};
+  if (GetParam() != "compose") arguments.insert(arguments.end(), {"--override", GetParam()});
+  const auto made = run_launcher(arguments, folder.path());
+  EXPECT_EQ(made.code, 0);
+  EXPECT_EQ(made.output, read_file(kRoot / "docker" / (GetParam() + ".yaml")))
+      << "make it anew: coop "
+      << "compose config/launch/sim.yaml > docker/" << GetParam() << ".yaml";
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, ComposeFile,
+                         ::testing::Values("compose", "host", "security", "hardware"),
+                         [](const auto& info) { return info.param; });
+
 }  // namespace
 }  // namespace coop::test
