@@ -87,19 +87,26 @@ Bytes Compressor::compress(Bytes records, ByteBuffer& out) {
   return out.view().first(size);
 }
 
+/// Made when the first chunk needs them.
 struct Decompressor::Contexts {
   std::unique_ptr<ZSTD_DCtx, Free<ZSTD_freeDCtx>> zstd;
   std::unique_ptr<LZ4F_dctx, Free<LZ4F_freeDecompressionContext>> lz4;
+
+  void need(bool for_zstd) {
+    if (for_zstd) {
+      if (!zstd) zstd.reset(ZSTD_createDCtx());
+      if (!zstd) throw std::bad_alloc();
+    } else if (!lz4) {
+      LZ4F_dctx* context = nullptr;
+      if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)) != 0) {
+        throw std::bad_alloc();
+      }
+      lz4.reset(context);
+    }
+  }
 };
 
-Decompressor::Decompressor() : contexts_(std::make_unique<Contexts>()) {
-  contexts_->zstd.reset(ZSTD_createDCtx());
-  LZ4F_dctx* lz4 = nullptr;
-  if (LZ4F_isError(LZ4F_createDecompressionContext(&lz4, LZ4F_VERSION)) != 0)
-    throw std::bad_alloc();
-  contexts_->lz4.reset(lz4);
-  if (!contexts_->zstd) throw std::bad_alloc();
-}
+Decompressor::Decompressor() : contexts_(std::make_unique<Contexts>()) {}
 Decompressor::~Decompressor() = default;
 Decompressor::Decompressor(Decompressor&&) noexcept = default;
 Decompressor& Decompressor::operator=(Decompressor&&) noexcept = default;
@@ -107,6 +114,7 @@ Decompressor& Decompressor::operator=(Decompressor&&) noexcept = default;
 bool Decompressor::stream(std::string_view compression, Bytes in, std::uint64_t limit,
                           std::vector<std::byte>& out) {
   const bool zstd = compression == "zstd";
+  contexts_->need(zstd);
   if (zstd) {
     ZSTD_DCtx_reset(contexts_->zstd.get(), ZSTD_reset_session_only);
   } else {

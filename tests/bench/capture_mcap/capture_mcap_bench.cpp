@@ -7,6 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <random>
 #include <system_error>
@@ -146,10 +147,15 @@ class SparseSink final : public Sink {
   void write(std::span<const Bytes> parts) override {
     for (const Bytes part : parts) {
       const std::size_t head = std::min<std::size_t>(part.size(), 4096);
-      const std::size_t tail = part.size() > 8192 ? std::size_t{4096} : part.size() - head;
       put(part.first(head));
-      if (::lseek(fd_, static_cast<off_t>(part.size() - head - tail), SEEK_CUR) < 0) fail();
-      put(part.last(tail));
+      Bytes rest = part.subspan(head);
+      if (!rest.empty() &&
+          std::ranges::all_of(rest, [](std::byte b) { return b == std::byte{0}; })) {
+        // But for one byte, which makes the file as long as it should be.
+        if (::lseek(fd_, static_cast<off_t>(rest.size() - 1), SEEK_CUR) < 0) fail();
+        rest = rest.last(1);
+      }
+      put(rest);
     }
   }
   void sync() override {}
