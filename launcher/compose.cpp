@@ -133,8 +133,8 @@ std::string heading(const std::string& title) {
   return "# Made by `coop compose " + title + "` from that launch file: change it, not this one.\n";
 }
 
-/// What all services have in common. Every probe is a process in the container, some 50 ms of a
-/// processor: hence no more often than needed for a quick start.
+/// What all services have in common. Every probe is a process in the container, started through
+/// engine and runtime: hence no more often than needed for a quick start.
 constexpr const char* kCommon = R"(x-component: &component
   image: "${COOP_IMAGE:-coop:latest}"
   init: true
@@ -150,7 +150,7 @@ constexpr const char* kCommon = R"(x-component: &component
     driver: json-file
     options: {max-size: 10m, max-file: "3"}
 x-health: &health
-  interval: 2s
+  interval: "${COOP_HEALTH_INTERVAL:-2s}"
   timeout: 5s
   retries: 2
 services:

@@ -91,8 +91,8 @@ std::string part_of_include(std::string_view include) {
   const auto library = std::ranges::find(kLibraries, folder, &Library::folder);
   if (library != kLibraries.end()) return std::string(library->name);
   static const std::set<std::string_view> kOthers{
-      "sys", "linux",    "arpa",  "net",   "netinet",   "CLI", "fmt",
-      "tl",  "nlohmann", "gtest", "gmock", "benchmark", "asm", "bits"};
+      "sys", "linux",    "systemd", "arpa",  "net",       "netinet", "CLI", "fmt",
+      "tl",  "nlohmann", "gtest",   "gmock", "benchmark", "asm",     "bits"};
   if (kOthers.contains(folder)) return {};
   if (folder == "launcher") return "launcher";
   return part_below_components(include);

@@ -108,7 +108,7 @@ class Containers : public ::testing::Test {
     const auto begin = std::chrono::steady_clock::now();
     composition_->compose({"up", "--detach"});
     ASSERT_TRUE(composition_->wait_until_healthy(services_));
-    std::cout << "up to all healthy: " << seconds_since(begin) << " s\n";
+    std::cout << "up to all healthy: " << seconds_since(begin) << " s" << std::endl;
     watch_.emplace(test_domain());
   }
   bool wait(const std::function<bool()>& condition) {
@@ -141,7 +141,7 @@ class Containers : public ::testing::Test {
 TEST_F(Containers, AMissionSurvivesKilledPausedStoppedAndReplacedContainers) {
   const double megabytes =
       1e-6 * std::stod(need_tool("docker", {"image", "inspect", "--format", "{{.Size}}", kImage}));
-  std::cout << "image: " << megabytes << " MB\n";
+  std::cout << "image: " << megabytes << " MB" << std::endl;
   EXPECT_LE(megabytes, kMostMegabytes);
   ASSERT_NO_FATAL_FAILURE(bring_up());
 
@@ -177,7 +177,7 @@ TEST_F(Containers, AMissionSurvivesKilledPausedStoppedAndReplacedContainers) {
 
   const auto begin = std::chrono::steady_clock::now();
   composition_->compose({"down", "--volumes"});
-  std::cout << "down: " << seconds_since(begin) << " s\n";
+  std::cout << "down: " << seconds_since(begin) << " s" << std::endl;
   EXPECT_TRUE(composition_->states().empty());
 }
 

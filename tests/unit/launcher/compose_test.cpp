@@ -18,7 +18,7 @@ PlannedComponent component(const std::string& name) {
   PlannedComponent planned;
   planned.name = name;
   planned.where = "x.yaml:3";
-  planned.executable = "/home/a/coop/build/bin/" + name;
+  planned.executable = "/opt/checkout/build/bin/" + name;
   planned.arguments = {"--name", name, "--log-dir", "/var/lib/coop/logs"};
   planned.start_timeout = 15;
   planned.stop_timeout = 2.5;
@@ -38,13 +38,13 @@ class ComposeTest : public ::testing::Test {
   static std::vector<std::string> texts(const YAML::Node& list) {
     return list.as<std::vector<std::string>>();
   }
-  Places places_{.programs = "/home/a/coop/build/bin", .share = "/home/a/coop"};
+  Places places_{.programs = "/opt/checkout/build/bin", .share = "/opt/checkout"};
   Plan plan_;
 };
 
 TEST_F(ComposeTest, FilesOfThisMachineBecomeThoseOfTheImage) {
-  dwa().arguments.insert(dwa().arguments.end(), {"--config", "/home/a/coop/config/dwa.yaml",
-                                                 "--set", "map=\"/home/a/coop/maps/m.yaml\""});
+  dwa().arguments.insert(dwa().arguments.end(), {"--config", "/opt/checkout/config/dwa.yaml",
+                                                 "--set", "map=\"/opt/checkout/maps/m.yaml\""});
   EXPECT_THAT(texts(services()["dwa"]["command"]),
               ElementsAre("/usr/lib/coop/dwa", "--name", "dwa", "--config",
                           "/usr/share/coop/config/dwa.yaml", "--set",
@@ -100,7 +100,7 @@ TEST_F(ComposeTest, NothingRunsWithMoreRightsThanItNeeds) {
 }
 
 TEST_F(ComposeTest, KeysLieWhereTheContainerSeesThem) {
-  dwa().arguments = {"--dds", "security=true", "--dds", "keys=/home/a/keys"};
+  dwa().arguments = {"--dds", "security=true", "--dds", "keys=/opt/keys"};
   EXPECT_EQ(texts(services()["dwa"]["command"]).back(), "keys=/etc/coop/keys");
 }
 
