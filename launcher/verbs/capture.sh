@@ -11,6 +11,8 @@ Captures (MCAP files)
   mcap merge FILE... -o OUT
                         several as one, in the order of time
   mcap cat FILE         one line a message, without decoding it
+  mcap cat FILE --yaml|--json [-o OUT] [--topics T,...] [--max-array N]
+                        with all values: a YAML document or a line of JSON a message
   mcap attachments FILE [NAME...] [--extract DIR]
                         launch file, configuration, maps that were recorded with it
   mcap import BAG -o OUT
@@ -20,6 +22,7 @@ TEXT
 
 verb_mcap() {
   prepare_programs
+  if [ "${1-}" = cat ] && has_option --yaml --json "$@"; then exec "$programs/mcap_values" "$@"; fi
   exec "$programs/mcap" "$@"
 }
 verb_info() { verb_mcap info "$@"; }

@@ -41,7 +41,9 @@ class CaptureInOtherHands : public testing::Test {
       why_ = script.output();
       return std::nullopt;
     }
-    return json::parse(script.output());
+    const std::string output = script.output();
+    if (!json::accept(output)) throw std::runtime_error(output);
+    return json::parse(output);
   }
 
   static void expect_no_difference(const json& report, std::size_t topics, std::uint64_t messages) {

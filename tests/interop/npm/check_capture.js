@@ -37,10 +37,11 @@ class FileReadable {
 }
 
 // Integers of 64 bits as BigInt, where JSON.parse would round them.
+const marker = "an integer of many digits: ";
 function parseValues(line) {
-  const exact = line.replace(/(?<=[:[,])-?\d{16,}(?=[,\]}])/g, (digits) => `"\u0001${digits}"`);
+  const exact = line.replace(/(?<=[:[,])-?\d{16,}(?=[,\]}])/g, (digits) => `"${marker}${digits}"`);
   return JSON.parse(exact, (_, value) =>
-    typeof value === "string" && value.startsWith("\u0001") ? BigInt(value.slice(1)) : value);
+    typeof value === "string" && value.startsWith(marker) ? BigInt(value.slice(marker.length)) : value);
 }
 
 const special = { NaN: NaN, Infinity: Infinity, "-Infinity": -Infinity };

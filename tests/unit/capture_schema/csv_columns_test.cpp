@@ -11,14 +11,14 @@ namespace {
 using test::CdrBytes;
 using ::testing::ElementsAre;
 
-const MessageLayout& layout() {
+const MessageLayout& table_layout() {
   static const MessageLayout kLayout("p/M",
                                      "Inner[] list\nuint8[2] pair\nstring[] words\nInner one\n"
                                      "===\nMSG: p/Inner\nstring name\nint16[] data\n");
   return kLayout;
 }
 
-CdrBytes message(int elements, int data) {
+CdrBytes table_message(int elements, int data) {
   CdrBytes bytes;
   const auto inner = [&](int i) {
     bytes.text("n" + std::to_string(i)).length(static_cast<std::uint32_t>(data));
@@ -34,9 +34,9 @@ CdrBytes message(int elements, int data) {
 }
 
 TEST(CsvColumns, arrays_have_the_columns_of_the_longest_message) {
-  CsvColumns columns(layout(), {});
-  const auto narrow = message(1, 1);
-  const auto wide = message(2, 2);
+  CsvColumns columns(table_layout(), {});
+  const auto narrow = table_message(1, 1);
+  const auto wide = table_message(2, 2);
   ASSERT_TRUE(columns.measure(narrow));
   ASSERT_TRUE(columns.measure(wide));
   columns.settle();
@@ -51,8 +51,8 @@ TEST(CsvColumns, arrays_have_the_columns_of_the_longest_message) {
 }
 
 TEST(CsvColumns, long_arrays_are_shortened_and_their_length_told) {
-  CsvColumns columns(layout(), {.max_elements = 1});
-  const auto wide = message(3, 2);
+  CsvColumns columns(table_layout(), {.max_elements = 1});
+  const auto wide = table_message(3, 2);
   ASSERT_TRUE(columns.measure(wide));
   columns.settle();
   EXPECT_THAT(columns.names(),
@@ -64,14 +64,14 @@ TEST(CsvColumns, long_arrays_are_shortened_and_their_length_told) {
 }
 
 TEST(CsvColumns, no_messages_give_the_columns_that_do_not_depend_on_them) {
-  CsvColumns columns(layout(), {});
+  CsvColumns columns(table_layout(), {});
   columns.settle();
   EXPECT_THAT(columns.names(), ElementsAre("one.name"));
 }
 
 TEST(CsvColumns, a_malformed_message_is_an_error) {
-  CsvColumns columns(layout(), {});
-  auto bytes = message(1, 2);
+  CsvColumns columns(table_layout(), {});
+  auto bytes = table_message(1, 2);
   bytes.bytes().resize(20);
   EXPECT_EQ(columns.measure(bytes).error().path, "list[0].data");
 }

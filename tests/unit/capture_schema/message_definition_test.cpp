@@ -10,7 +10,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-using Array = FieldDefinition::Array;
 
 TEST(MessageDefinition, every_kind_of_field_is_read) {
   const auto message = parse_message_definition("p/msg/M",

@@ -15,7 +15,7 @@ namespace {
 
 using capture::MessageLayout;
 
-const Schema& schema() {
+const Schema& idl_schema() {
   static const Schema kSchema = load_idl(std::filesystem::path(COOP_SOURCE_DIR) / "idl");
   return kSchema;
 }
@@ -26,7 +26,7 @@ MessageLayout layout_of(const std::string& type) {
 
 template <class T>
 Bytes random_message(const std::string& type, std::uint32_t seed) {
-  return reencode<T>(CdrSample(schema(), seed)(type));
+  return reencode<T>(CdrSample(idl_schema(), seed)(type));
 }
 
 std::string as_json(const MessageLayout& layout, const Bytes& bytes) {
@@ -42,7 +42,7 @@ void expect_every_field_is_decoded(const std::string& type) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     const Bytes bytes = random_message<T>(type, seed);
     const std::string text = as_json(layout, bytes);
-    EXPECT_EQ(CdrFromJson(schema())(type, nlohmann::json::parse(text)), bytes) << text;
+    EXPECT_EQ(CdrFromJson(idl_schema())(type, nlohmann::json::parse(text)), bytes) << text;
   }
 }
 
