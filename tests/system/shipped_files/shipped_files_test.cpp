@@ -93,13 +93,12 @@ TEST_P(ComposeFile, IsWhatTheLaunchFileSays) {
   const auto made = run_launcher(arguments, folder.path());
   EXPECT_EQ(made.code, 0);
   EXPECT_EQ(made.output, read_file(kRoot / "docker" / (GetParam() + ".yaml")))
-      << "make it anew: coop "
-      << "compose config/launch/sim.yaml > docker/" << GetParam() << ".yaml";
+      << "make it anew with `coop compose config/launch/sim.yaml`";
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, ComposeFile,
                          ::testing::Values("compose", "host", "security", "hardware"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& tested) { return tested.param; });
 
 }  // namespace
 }  // namespace coop::test
