@@ -105,6 +105,8 @@ void Component::describe(config::Fields& fields) {
   fields.texts("after", after, {.help = "started when these components are up"});
   if (std::string place = fields.where("after"); !place.empty()) after_where = std::move(place);
   fields.section("restart", restart);
+  fields.assignments("dds", dds, {.help = "override the launch file's dds"});
+  if (std::string place = fields.where("dds"); !place.empty()) dds_where = std::move(place);
   fields.assignments("environment", environment, {.help = "variables of the process"});
   fields.section("log", log);
   fields.choice("health", health, kHealth, {.help = "none: the program sends no component_status"});
@@ -121,6 +123,7 @@ void Component::describe(config::Fields& fields) {
 }
 
 void DdsSettings::describe(config::Fields& fields) {
+  runtime::DdsSettings::describe(fields);
   fields.text("profiles", profiles, {.help = "XML profile file for Fast DDS"});
 }
 
@@ -137,9 +140,20 @@ void Launch::describe(config::Fields& fields) {
   fields.integer("seed", seed, {.help = "root of every random number", .min = 0, .max = 9e15});
   fields.text("run_dir", run_dir, {.help = "each run gets a folder in it"});
   fields.section("dds", dds);
+  if (std::string place = fields.where("dds"); !place.empty()) dds_where = std::move(place);
   fields.assignments("variables", variables, {.help = "${name} in every text of the file"});
   fields.section("defaults", defaults);
   fields.mapping("components", components, defaults);
+}
+
+std::filesystem::path find_launch_file(const std::filesystem::path& wanted, const Places& places) {
+  const std::filesystem::path shipped = places.share / "config" / "launch";
+  auto file = find_file(wanted, {".", places.share, shipped});
+  if (file.empty() && !wanted.has_extension()) {
+    file = find_file(wanted.string() + ".yaml", {shipped});
+  }
+  if (file.empty()) throw config::Error("no launch file '" + wanted.string() + "'");
+  return file;
 }
 
 Launch load_launch(const std::filesystem::path& path, const std::vector<std::string>& overrides) {

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "core/config/config.hpp"
+#include "core/places.hpp"
+#include "runtime/dds_settings.hpp"
 
 namespace coop::launcher {
 
@@ -38,6 +40,8 @@ struct Component {
   std::vector<std::string> after;      ///< started when these are up
   std::string after_where;
   RestartPolicy restart;
+  std::vector<config::Assignment> dds;  ///< on top of the launch's dds
+  std::string dds_where;
   std::vector<config::Assignment> environment;
   LogSettings log;
   std::string health = "heartbeat";  ///< none: a program that sends no component_status
@@ -51,8 +55,8 @@ struct Component {
   void describe(config::Fields& fields);
 };
 
-/// Settings of the middleware, the same for every component.
-struct DdsSettings {
+/// Settings of the middleware, for every component and the launcher itself.
+struct DdsSettings : runtime::DdsSettings {
   std::string profiles;  ///< XML profile file for Fast DDS
 
   void describe(config::Fields& fields);
@@ -70,6 +74,7 @@ struct Launch {
   std::int64_t seed = 1;
   std::string run_dir = "runs";  ///< each run gets a folder of its own in it
   DdsSettings dds;
+  std::string dds_where;
   std::vector<config::Assignment> variables;  ///< ${name} in every text of the file
   Component defaults;                         ///< what components start from that come after it
   std::vector<config::Named<Component>> components;
@@ -78,6 +83,11 @@ struct Launch {
 
   std::filesystem::path file;  ///< the file this was read from
 };
+
+/// A path, or the name of a launch file that comes with Coop: config/launch/sim.yaml, sim.yaml,
+/// sim. Throws config::Error where there is none.
+[[nodiscard]] std::filesystem::path find_launch_file(const std::filesystem::path& wanted,
+                                                     const Places& places);
 
 /// Reads `path` with everything it includes, strictly, then the overrides:
 /// `component.parameter=value`, `variable=value` or `launch_key=value`. Variables are not replaced

@@ -110,6 +110,18 @@ class Planner {
         variables_(make_variables(launch, places, run_folder)),
         folders_{launch.file.parent_path(), places.share} {}
 
+  /// With variables replaced and the keys' folder in full (relative: to where the launcher runs).
+  [[nodiscard]] runtime::DdsSettings dds() const {
+    const std::string where = launch_.dds_where + ": dds";
+    runtime::DdsSettings settings = launch_.dds;
+    for (auto* texts : {&settings.peers, &settings.interfaces}) {
+      for (std::string& text : *texts) text = variables_.replace(text, where);
+    }
+    settings.server = variables_.replace(settings.server, where);
+    if (!settings.keys.empty()) settings.keys = variables_.replace(settings.keys.string(), where);
+    return checked(std::move(settings), launch_.dds_where);
+  }
+
   [[nodiscard]] PlannedComponent resolve(const Named& component) const {
     const Component& declared = component.value;
     PlannedComponent planned;
@@ -144,6 +156,33 @@ class Planner {
   }
 
  private:
+  static runtime::DdsSettings checked(runtime::DdsSettings settings, const std::string& where) {
+    if (!settings.keys.empty()) settings.keys = in_full(settings.keys);
+    try {
+      settings.validate();
+    } catch (const config::Error& problem) {
+      throw config::Error(where + ": " + problem.what());
+    }
+    return settings;
+  }
+
+  [[nodiscard]] runtime::DdsSettings dds_of(const Named& component) const {
+    runtime::DdsSettings settings = dds();
+    config::Document overrides =
+        config::Document::parse("", component.value.dds_where + ": " + component.name + ": dds");
+    for (const auto& override : component.value.dds) {
+      const std::string where = override.where + ": " + component.name + ": dds";
+      overrides.set(override.key + "=" + variables_.replace_in_yaml(override, where));
+    }
+    try {
+      overrides.read(settings);
+    } catch (const config::Error& problem) {
+      throw config::Error(component.value.dds_where + ": " + component.name + ": " +
+                          problem.what());
+    }
+    return checked(std::move(settings), component.value.dds_where);
+  }
+
   [[nodiscard]] std::filesystem::path file_of(const std::string& name,
                                               const std::string& where) const {
     const std::filesystem::path wanted = variables_.replace(name, where);
@@ -190,6 +229,9 @@ class Planner {
                    "--log-dir", (run_folder_ / "logs").string()};
       if (launch_.use_sim_time && !is_master(component)) arguments.emplace_back("--sim-time");
       if (launch_.lockstep) add_lockstep(component, arguments);
+      for (const std::string& setting : dds_of(component).assignments()) {
+        arguments.insert(arguments.end(), {"--dds", setting});
+      }
       if (launch_.reliable_streams) arguments.emplace_back("--reliable-streams");
       const std::string config = config_of(component, planned.executable);
       if (!config.empty()) arguments.insert(arguments.end(), {"--config", config});
@@ -236,7 +278,7 @@ Plan make_plan(const Launch& launch, const Places& places,
   }
   const StartOrder start(launch);
   const Planner planner(launch, places, run_folder);
-  Plan plan{.robot = launch.robot, .domain = launch.domain, .components = {}};
+  Plan plan{.robot = launch.robot, .domain = launch.domain, .dds = planner.dds(), .components = {}};
   for (const Named* component : start.order) {
     if (!component->value.enabled) continue;
     PlannedComponent planned = planner.resolve(*component);

@@ -34,6 +34,7 @@ struct PlannedComponent {
 struct Plan {
   std::string robot;
   int domain = 0;
+  runtime::DdsSettings dds;  ///< of the launcher itself, and of components that do not deviate
   std::vector<PlannedComponent> components;
 };
 

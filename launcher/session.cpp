@@ -19,6 +19,7 @@
 #include "launcher/service_notifier.hpp"
 #include "launcher/system_lock.hpp"
 #include "runtime/dds_transport.hpp"
+#include "runtime/security_keys.hpp"
 
 namespace coop::launcher {
 namespace {
@@ -26,6 +27,8 @@ namespace {
 /// A system that already runs is heard within this time: matching takes 24-34 ms, and
 /// component_status is latched.
 constexpr std::chrono::milliseconds kListen{400};
+/// Among the participants, and in the folder of keys.
+constexpr const char* kLauncherName = "launcher";
 
 /// Of the table, and of the measurement of processor use.
 constexpr std::chrono::milliseconds kRefresh{500};
@@ -247,16 +250,13 @@ void refuse_strangers(HealthSource& health, const Plan& plan, Instant until) {
   }
 }
 
-/// A path, or the name of a launch file that comes with Coop: config/launch/sim.yaml, sim.yaml,
-/// sim.
-std::filesystem::path find_launch_file(const std::filesystem::path& wanted, const Places& places) {
-  const std::filesystem::path shipped = places.share / "config" / "launch";
-  auto file = find_file(wanted, {".", places.share, shipped});
-  if (file.empty() && !wanted.has_extension()) {
-    file = find_file(wanted.string() + ".yaml", {shipped});
+/// The launcher's own settings, its keys found good: what is wrong with all is said once.
+runtime::DdsSettings check_dds(const Plan& plan) {
+  runtime::DdsSettings dds = runtime::read_dds_settings(plan.dds.assignments());
+  if (dds.security) {
+    runtime::check_keys(dds.keys, kLauncherName, std::chrono::system_clock::now());
   }
-  if (file.empty()) throw config::Error("no launch file '" + wanted.string() + "'");
-  return file;
+  return dds;
 }
 
 }  // namespace
@@ -266,14 +266,16 @@ Outcome run_system(const UpOptions& options) {
   const Launch launch = load_launch(find_launch_file(options.file, places), options.overrides);
   RunFolder folder(launch.run_dir);
   const Plan plan = make_plan(launch, places, folder.path());
+  const runtime::DdsSettings dds = check_dds(plan);
   // Before the middleware starts its threads, so that none of them takes a signal.
   SignalFile signals{SIGINT, SIGTERM, SIGHUP, SIGCHLD};
   auto lock = SystemLock::acquire(launch.robot, launch.domain);
   if (!lock) throw InUse(lock.error());
   runtime::DdsTransport transport({.domain = launch.domain,
-                                   .participant_name = "launcher",
+                                   .participant_name = kLauncherName,
                                    .partition = launch.robot,
-                                   .reliable_streams = launch.reliable_streams});
+                                   .reliable_streams = launch.reliable_streams,
+                                   .settings = dds});
   DdsHealth health(transport);
   // In lockstep a message from outside would change the run, and no real base runs in it.
   std::optional<DdsBase> base;
@@ -293,7 +295,9 @@ void check_system(const UpOptions& options) {
   const Places places = Places::of_this_program();
   const Launch launch = load_launch(find_launch_file(options.file, places), options.overrides);
   // Nothing is written into a run folder by a check, so there need not be one.
-  check_all(make_plan(launch, places, std::filesystem::path(launch.run_dir) / "check"));
+  const Plan plan = make_plan(launch, places, std::filesystem::path(launch.run_dir) / "check");
+  (void)check_dds(plan);
+  check_all(plan);
 }
 
 std::string compose_system(const UpOptions& options, const std::string& override_name) {

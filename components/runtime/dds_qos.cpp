@@ -1,10 +1,5 @@
 #include "runtime/dds_qos.hpp"
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-
-#include <cstdlib>
-#include <string_view>
-
 namespace coop::runtime {
 
 namespace dds = eprosima::fastdds::dds;
@@ -12,7 +7,6 @@ using eprosima::fastrtps::Duration_t;
 
 namespace {
 
-constexpr std::uint32_t kSocketBuffer = 4U << 20U;
 constexpr int kStreamDepth = 5;
 constexpr int kEventDepth = 2000;
 /// Writers of one latched topic at a time, such as tf_static.
@@ -44,28 +38,7 @@ void apply_common(Qos intent, const DdsOptions& options, EndpointQos& qos) {
   }
 }
 
-/// As for ROS 2's programs.
-bool stays_on_this_machine() {
-  const char* wanted = std::getenv("ROS_LOCALHOST_ONLY");
-  return wanted != nullptr && std::string_view(wanted) == "1";
-}
-
 }  // namespace
-
-dds::DomainParticipantQos participant_qos(dds::DomainParticipantQos base,
-                                          const DdsOptions& options) {
-  base.name(options.participant_name);
-  base.transport().use_builtin_transports = false;
-  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-  udp->sendBufferSize = kSocketBuffer;
-  udp->receiveBufferSize = kSocketBuffer;
-  if (stays_on_this_machine()) udp->interfaceWhiteList.emplace_back("127.0.0.1");
-  base.transport().user_transports.push_back(udp);
-  auto& discovery = base.wire_protocol().builtin.discovery_config;
-  discovery.leaseDuration = Duration_t(2, 0);
-  discovery.leaseDuration_announcementperiod = Duration_t(0, 660'000'000);
-  return base;
-}
 
 void apply_intent(Qos intent, const DdsOptions& options, dds::DataWriterQos& qos) {
   apply_common(intent, options, qos);

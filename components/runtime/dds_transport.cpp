@@ -19,6 +19,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "runtime/dds_participant.hpp"
 #include "runtime/dds_qos.hpp"
 
 namespace coop::runtime {

@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "runtime/dds_settings.hpp"
 #include "runtime/transport.hpp"
 
 namespace coop::runtime {
@@ -16,10 +17,15 @@ struct DdsOptions {
   bool reliable_streams = false;
   /// No sample of any topic is replaced by a newer one before its readers have it: for lockstep.
   bool complete = false;
+  /// How others are found and reached, and whether strangers are kept out.
+  DdsSettings settings = {};
+  /// With a discovery server: it tells of all topics, not only of those one has endpoints for.
+  bool sees_all_topics = false;
 };
 
-/// Fast DDS behind the Transport interface: UDPv4 with 4 MiB buffers, data-sharing off, participant
-/// lease 2 s. Topic `scan` is `rt/scan` on the wire (ROS 2's rule).
+/// Fast DDS behind the Transport interface: UDPv4 with 4 MiB buffers unless the settings say
+/// otherwise, data-sharing off, participant lease 2 s. Topic `scan` is `rt/scan` on the wire (ROS
+/// 2's rule).
 class DdsTransport : public Transport {
  public:
   /// Throws std::runtime_error when no participant can be made.

@@ -86,7 +86,7 @@ struct Node::Impl {
   }
 
   TransformPublisher& broadcaster(Node& node) {
-    node.advertise_transforms();
+    if (!transform_publisher) transform_publisher = std::make_unique<TransformPublisher>(node);
     return *transform_publisher;
   }
 };
@@ -164,9 +164,7 @@ const TransformBuffer& Node::transforms(Duration history) {
 }
 
 void Node::advertise_transforms() {
-  if (!impl_->transform_publisher) {
-    impl_->transform_publisher = std::make_unique<TransformPublisher>(*this);
-  }
+  impl_->broadcaster(*this).advertise_moving();
 }
 
 void Node::publish_transform(std::string_view parent, std::string_view child, Time stamp,

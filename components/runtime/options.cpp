@@ -17,6 +17,12 @@ std::optional<Options> parse_options(int argc, const char* const* argv, const st
       ->take_all();
   app.add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(CLI::Range(0, 232));
   app.add_option("--robot", options.robot, "robot name; robots of other names are not heard");
+  app.add_option(
+         "--dds", options.dds,
+         "key=value: how others are found and reached (docs/hosts.md); may be repeated, goes "
+         "over those in the environment's COOP_DDS: discovery, peers, peer_participants, "
+         "server, transport, interfaces, security, keys")
+      ->take_all();
   app.add_flag("--sim-time", options.sim_time, "take the time from the topic clock");
   app.add_flag("--lockstep", options.lockstep, "run in step with all other components");
   app.add_option("--member", options.members,

@@ -15,6 +15,7 @@ struct Options {
   std::vector<std::string> settings;  ///< key=value on top of the YAML
   int domain = 0;                     ///< DDS domain
   std::string robot;                  ///< robot name: DDS partition; empty: none, as ROS 2
+  std::vector<std::string> dds;       ///< key=value, see DdsSettings
   bool sim_time = false;              ///< time comes from /clock
   bool lockstep = false;              ///< runs its ticks in step with all others
   std::vector<std::string> members;   ///< lockstep, the master: who must join before the first tick

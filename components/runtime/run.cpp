@@ -5,6 +5,7 @@
 #include "runtime/dds_transport.hpp"
 #include "runtime/lockstep/follower.hpp"
 #include "runtime/lockstep/master.hpp"
+#include "runtime/security_keys.hpp"
 #include "runtime/stop_signal.hpp"
 
 namespace coop::runtime {
@@ -18,6 +19,15 @@ config::Document load_document(const Options& options) {
       options.config.empty() ? config::Document() : config::Document::load(options.config);
   for (const std::string& setting : options.settings) document.set(setting);
   return document;
+}
+
+/// With the keys, where there must be some, found good.
+DdsSettings load_dds_settings(const Options& options) {
+  DdsSettings settings = read_dds_settings(options.dds);
+  if (settings.security) {
+    check_keys(settings.keys, options.name, std::chrono::system_clock::now());
+  }
+  return settings;
 }
 
 /// The clock was moved, for the first time or back.
@@ -111,13 +121,14 @@ int lead_lockstep(const Options& options, const Program& program, const config::
   return node.exit_code();
 }
 
-int run_component(const Options& options, const Program& program,
-                  const config::Document& document) {
+int run_component(const Options& options, const Program& program, const config::Document& document,
+                  const DdsSettings& settings) {
   DdsTransport carrier({.domain = options.domain,
                         .participant_name = options.name,
                         .partition = options.robot,
                         .reliable_streams = options.reliable_streams,
-                        .complete = options.lockstep});
+                        .complete = options.lockstep,
+                        .settings = settings});
   if (!options.lockstep) return run_freely(options, program, document, carrier);
   std::optional<SampleTrace> trace;
   if (options.trace) trace.emplace(options.run_dir, options.name);
@@ -138,13 +149,14 @@ int run_program(int argc, const char* const* argv, const Program& program) {
       return 0;
     }
     const config::Document document = load_document(*options);
+    const DdsSettings settings = load_dds_settings(*options);
     program.check(document);
     if (options->mode == Options::Mode::kCheck) return 0;
     if (options->mode == Options::Mode::kPrintConfig) {
       std::cout << program.print_config(document);
       return 0;
     }
-    return run_component(*options, program, document);
+    return run_component(*options, program, document, settings);
   } catch (const std::exception& problem) {
     std::cerr << options->name << ": " << problem.what() << '\n';
     return 1;

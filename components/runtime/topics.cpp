@@ -71,7 +71,7 @@ constexpr auto kTopics = std::to_array<TopicInfo>({
     {"mission", "coop_msgs/Mission", kLatched, 0, "person", "sequencer",
      "a mission, or a command to the one that runs"},
     {"mission_status", "coop_msgs/MissionStatus", kLatched, 0, "sequencer",
-     "dwa, global_planner, referee, person", "state of the mission and of every egg"},
+     "dwa, global_planner, launcher, person, referee", "state of the mission and of every egg"},
     {"navigation_status", "coop_msgs/NavigationStatus", kLatched, 0, "dwa, global_planner",
      "global_planner, referee, sequencer", "what each navigator does about its goal"},
     {"odom", "nav_msgs/Odometry", kStream, 50, kBase, "amcl, dwa, launcher, slam",

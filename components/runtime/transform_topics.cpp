@@ -37,19 +37,22 @@ void TransformListener::receive(Node& node, const tf2_msgs::msg::TFMessage& mess
   }
 }
 
-TransformPublisher::TransformPublisher(Node& node)
-    : moving_(node.advertise<tf2_msgs::msg::TFMessage>("tf", Qos::kEvent)),
-      fixed_(node.advertise<tf2_msgs::msg::TFMessage>("tf_static", Qos::kStateLatched)) {}
+// Each writer is made when it is needed: permissions may hold for one of the topics only.
+void TransformPublisher::advertise_moving() {
+  if (!moving_) moving_ = node_.advertise<tf2_msgs::msg::TFMessage>("tf", Qos::kEvent);
+}
 
 void TransformPublisher::publish(const StampedTransform& transform) {
-  moving_.publish(conversions::to_msg(std::span(&transform, 1)));
+  advertise_moving();
+  moving_->publish(conversions::to_msg(std::span(&transform, 1)));
 }
 
 void TransformPublisher::publish_static(StampedTransform transform) {
+  if (!fixed_) fixed_ = node_.advertise<tf2_msgs::msg::TFMessage>("tf_static", Qos::kStateLatched);
   std::erase_if(fixed_transforms_,
                 [&](const StampedTransform& known) { return known.child == transform.child; });
   fixed_transforms_.push_back(std::move(transform));
-  fixed_.publish(conversions::to_msg(fixed_transforms_));
+  fixed_->publish(conversions::to_msg(fixed_transforms_));
 }
 
 }  // namespace coop::runtime

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "core/stamped.hpp"
@@ -23,13 +24,15 @@ class TransformListener {
 /// Writes tf, and tf_static with all static transforms of this component in one latched message.
 class TransformPublisher {
  public:
-  explicit TransformPublisher(Node& node);
+  explicit TransformPublisher(Node& node) : node_(node) {}
+  void advertise_moving();
   void publish(const StampedTransform& transform);
   void publish_static(StampedTransform transform);
 
  private:
-  Publisher<tf2_msgs::msg::TFMessage> moving_;
-  Publisher<tf2_msgs::msg::TFMessage> fixed_;
+  Node& node_;
+  std::optional<Publisher<tf2_msgs::msg::TFMessage>> moving_;
+  std::optional<Publisher<tf2_msgs::msg::TFMessage>> fixed_;
   std::vector<StampedTransform> fixed_transforms_;
 };
 

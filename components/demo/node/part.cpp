@@ -77,8 +77,10 @@ PartResult run_part(const Part& part) {
   PartResult result;
   result.output = part.folder / "launcher.log";
 
-  runtime::DdsTransport transport(
-      {.domain = part.domain, .participant_name = "demo", .partition = {}});
+  runtime::DdsTransport transport({.domain = part.domain,
+                                   .participant_name = "demo",
+                                   .partition = {},
+                                   .settings = runtime::read_dds_settings({})});
   const runtime::SystemClock clock;
   runtime::Executor executor(clock);
   const runtime::StopSignal stop(executor);

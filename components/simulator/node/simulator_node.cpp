@@ -76,6 +76,7 @@ SimulatorNode::SimulatorNode(runtime::Node& node, const Config& config)
   ground_truth_ = node.advertise<coop_msgs::msg::GroundTruth>("ground_truth", Qos::kSensorStream);
   world_publisher_ = node.advertise<coop_msgs::msg::World>("world", Qos::kStateLatched);
   world_publisher_.publish(conversions::to_msg(world_, simulation_->now()));
+  node.advertise_transforms();
   node.publish_static_transform(robot::kBaseLink, robot::kImuLink, robot_.imu_in_base);
   subscribe();
   node.lead_time({.period = Simulation::kTick, .rate = config.rate, .step = [this] {

@@ -8,6 +8,7 @@
 #include "conversions/time.hpp"
 #include "core/atomic_file.hpp"
 #include "core/map/map_file.hpp"
+#include "core/name.hpp"
 #include "slam/trajectory_file.hpp"
 
 namespace coop::slam {
@@ -215,6 +216,9 @@ void SlamNode::answer(const coop_msgs::msg::SaveMap& request) {
   result.path(path);
   try {
     if (path.empty()) throw std::runtime_error("neither the request nor save_path names a file");
+    if (!request.path().empty() && !is_name(path)) {
+      throw std::runtime_error("'" + path + "' is no name: maps go into the folder of the run");
+    }
     if (!filter_->has_map()) throw std::runtime_error("there is no map yet");
     save(path);
     result.success(true);

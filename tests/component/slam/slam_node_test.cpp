@@ -94,7 +94,7 @@ TEST_F(SlamNodeTest, SavesTheMapOnRequest) {
   start();
   drive(10);
   const auto path = folder_.path() / "on_request";
-  request_save(path.string());
+  request_save("on_request");
   ASSERT_EQ(results_->size(), 1U);
   EXPECT_TRUE(results_->back().success()) << results_->back().detail();
   EXPECT_EQ(results_->back().request_id(), "r1");
@@ -111,15 +111,27 @@ TEST_F(SlamNodeTest, RequestWithoutAPathSavesWhereTheMapGoesAtTheEnd) {
 
 TEST_F(SlamNodeTest, RequestThatCannotBeMetIsAnsweredWithTheReason) {
   start();
-  request_save((folder_.path() / "x").string());
+  request_save("x");
   ASSERT_EQ(results_->size(), 1U);
   EXPECT_FALSE(results_->back().success());
   EXPECT_THAT(results_->back().detail(), HasSubstr("no map"));
   drive(3);
-  write_file_atomically(folder_.path() / "file", "");
-  request_save((folder_.path() / "file" / "x").string());
+  std::filesystem::create_directory(folder_.path() / "taken.pgm");
+  request_save("taken");
   EXPECT_FALSE(results_->back().success());
-  EXPECT_THAT(results_->back().detail(), HasSubstr("file"));
+  EXPECT_THAT(results_->back().detail(), HasSubstr("taken"));
+}
+
+TEST_F(SlamNodeTest, ARequestNamesAMapAndNeverAPath) {
+  start();
+  drive(3);
+  const std::string elsewhere = (folder_.path() / "elsewhere").string();
+  for (const std::string& path : {elsewhere, std::string("../x"), std::string("a/b")}) {
+    request_save(path);
+    EXPECT_FALSE(results_->back().success()) << path;
+    EXPECT_THAT(results_->back().detail(), HasSubstr("is no name")) << path;
+  }
+  EXPECT_FALSE(std::filesystem::exists(elsewhere + ".yaml"));
 }
 
 TEST_F(SlamNodeTest, SavesMapAndTrajectoryAtTheEndWithAllThatHadArrived) {

@@ -11,12 +11,15 @@ namespace coop::test {
 class Listener {
  public:
   explicit Listener(int domain, const std::string& name, bool reliable_streams = false)
-      : transport_({.domain = domain,
-                    .participant_name = name,
-                    .partition = {},
-                    .reliable_streams = reliable_streams}),
+      : Listener({.domain = domain,
+                  .participant_name = name,
+                  .partition = {},
+                  .reliable_streams = reliable_streams,
+                  .settings = runtime::read_dds_settings({})}) {}
+  explicit Listener(const runtime::DdsOptions& dds)
+      : transport_(dds),
         executor_(clock_),
-        node_(options(name), transport_, clock_, executor_) {}
+        node_(options(dds.participant_name), transport_, clock_, executor_) {}
 
   [[nodiscard]] runtime::Node& node() { return node_; }
   /// Takes in what has arrived.

@@ -99,6 +99,28 @@ TEST_F(PlanTest, TheCommandLineCarriesWhatHoldsForAllAndTheParameters) {
                           "--set", "deep.x=\"1\"", "--verbose"));
 }
 
+TEST_F(PlanTest, SettingsOfTheMiddlewareReachEveryComponentAndTheLauncher) {
+  const Plan plan_ = plan(
+      "variables: {planner: 10.0.0.2}\ndds: {discovery: peers, peers: [\"${planner}\"]}\n"
+      "components:\n  a: {}\n  b: {dds: {interfaces: [eth0]}}\n");
+  EXPECT_THAT(plan_.dds.peers, ElementsAre("10.0.0.2"));
+  const auto& a = plan_.components[0].arguments;
+  EXPECT_THAT(a, Contains("discovery=peers"));
+  EXPECT_THAT(a, Contains("peers=[\"10.0.0.2\"]"));
+  EXPECT_THAT(a, Not(Contains("interfaces=[\"eth0\"]")));
+  EXPECT_THAT(plan_.components[1].arguments, Contains("interfaces=[\"eth0\"]"));
+  EXPECT_THAT(plan_.components[1].arguments, Contains("discovery=peers"));
+}
+
+TEST_F(PlanTest, SettingsOfTheMiddlewareThatDoNotGoTogetherAreOneLine) {
+  EXPECT_EQ(error_of("robot: x\ndds: {discovery: server}\ncomponents:\n  a: {}\n"),
+            "/launch/x.yaml:2: dds.server: expected ADDRESS:PORT with discovery: server, got ''");
+  EXPECT_EQ(error_of("components:\n  a:\n    dds: {interfces: [lo]}\n"),
+            "/launch/x.yaml:3: a: dds:1: unknown key 'interfces'; did you mean 'interfaces'?");
+  EXPECT_THAT(error_of("dds: {discovry: simple}\ncomponents:\n  a: {}\n"),
+              HasSubstr("unknown key 'discovry'; did you mean 'discovery'?"));
+}
+
 TEST_F(PlanTest, AProgramWithoutHeartbeatGetsOnlyItsOwnArguments) {
   const Plan plan_ =
       plan("components:\n  a: {health: none, arguments: [\"${run_dir}/x\", \"${domain}\"]}\n");

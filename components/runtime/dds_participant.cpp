@@ -1,0 +1,131 @@
+#include "runtime/dds_participant.hpp"
+
+#include <fastdds/rtps/attributes/ServerAttributes.h>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
+
+#include <cstdlib>
+#include <string_view>
+
+#include "core/config/error.hpp"
+#include "runtime/network.hpp"
+#include "runtime/security_keys.hpp"
+
+namespace coop::runtime {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+using eprosima::fastrtps::Duration_t;
+
+namespace {
+
+constexpr std::uint32_t kSocketBuffer = 4U << 20U;
+constexpr std::uint32_t kSharedSegment = 8U << 20U;
+constexpr const char* kLoopback = "127.0.0.1";
+
+/// As for ROS 2's programs.
+bool stays_on_this_machine() {
+  const char* wanted = std::getenv("ROS_LOCALHOST_ONLY");
+  return wanted != nullptr && std::string_view(wanted) == "1";
+}
+
+std::vector<std::string> own_addresses(const DdsSettings& settings) {
+  if (stays_on_this_machine()) return {kLoopback};
+  std::vector<std::string> addresses;
+  for (const std::string& interface : settings.interfaces) {
+    addresses.push_back(interface_address(interface));
+  }
+  return addresses;
+}
+
+void add_transports(const DdsSettings& settings, dds::DomainParticipantQos& qos) {
+  qos.transport().use_builtin_transports = false;
+  if (settings.transport == "shm") {
+    auto shared = std::make_shared<eprosima::fastdds::rtps::SharedMemTransportDescriptor>();
+    shared->segment_size(kSharedSegment);
+    qos.transport().user_transports.push_back(shared);
+  }
+  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  udp->sendBufferSize = kSocketBuffer;
+  udp->receiveBufferSize = kSocketBuffer;
+  udp->interfaceWhiteList = own_addresses(settings);
+  if (settings.discovery == "peers") {
+    udp->maxInitialPeersRange = static_cast<std::uint32_t>(settings.peer_participants);
+  }
+  qos.transport().user_transports.push_back(udp);
+}
+
+/// Port 0: Fast DDS tries the usual ports of the domain, as many as the transport's range.
+rtps::Locator_t udp_locator(const std::string& address, std::uint32_t port) {
+  rtps::Locator_t locator;
+  rtps::IPLocator::createLocator(LOCATOR_KIND_UDPv4, address, port, locator);
+  return locator;
+}
+
+void add_peers(const DdsSettings& settings, dds::DomainParticipantQos& qos) {
+  auto& peers = qos.wire_protocol().builtin.initialPeersList;
+  // Those on this host, too: nobody else's announcements reach them where multicast is blocked.
+  const auto own = own_addresses(settings);
+  peers.push_back(udp_locator(own.empty() ? kLoopback : own.front(), 0));
+  for (const std::string& peer : settings.peers) {
+    peers.push_back(udp_locator(host_address(peer, "dds.peers"), 0));
+  }
+}
+
+void join_server(const DdsOptions& options, dds::DomainParticipantQos& qos) {
+  auto& discovery = qos.wire_protocol().builtin.discovery_config;
+  discovery.discoveryProtocol = options.sees_all_topics ? rtps::DiscoveryProtocol_t::SUPER_CLIENT
+                                                        : rtps::DiscoveryProtocol_t::CLIENT;
+  const std::string& server = options.settings.server;
+  const std::size_t colon = server.rfind(':');
+  rtps::RemoteServerAttributes attributes;
+  rtps::get_server_client_default_guidPrefix(0, attributes.guidPrefix);
+  attributes.metatrafficUnicastLocatorList.push_back(
+      udp_locator(host_address(server.substr(0, colon), "dds.server"),
+                  static_cast<std::uint32_t>(std::stoi(server.substr(colon + 1)))));
+  discovery.m_DiscoveryServers.push_back(attributes);
+}
+
+void add_security(const DdsOptions& options, dds::DomainParticipantQos& qos) {
+  const KeyFiles files(options.settings.keys, options.participant_name);
+  const auto add = [&qos](const std::string& name, const std::string& value) {
+    qos.properties().properties().emplace_back(name, value);
+  };
+  const auto add_file = [&add](const std::string& name, const std::filesystem::path& file) {
+    add(name, "file://" + std::filesystem::absolute(file).lexically_normal().string());
+  };
+  const std::string identity = "dds.sec.auth.builtin.PKI-DH.";
+  add("dds.sec.auth.plugin", "builtin.PKI-DH");
+  add_file(identity + "identity_ca", files.identity_ca);
+  add_file(identity + "identity_certificate", files.certificate);
+  add_file(identity + "private_key", files.key);
+  std::error_code error;
+  if (std::filesystem::exists(files.revoked, error)) {
+    add_file(identity + "identity_crl", files.revoked);
+  }
+  const std::string access = "dds.sec.access.builtin.Access-Permissions.";
+  add("dds.sec.access.plugin", "builtin.Access-Permissions");
+  add_file(access + "permissions_ca", files.permissions_ca);
+  add_file(access + "governance", files.governance);
+  add_file(access + "permissions", files.permissions);
+  add("dds.sec.crypto.plugin", "builtin.AES-GCM-GMAC");
+}
+
+}  // namespace
+
+dds::DomainParticipantQos participant_qos(dds::DomainParticipantQos base,
+                                          const DdsOptions& options) {
+  const DdsSettings& settings = options.settings;
+  base.name(options.participant_name);
+  add_transports(settings, base);
+  auto& discovery = base.wire_protocol().builtin.discovery_config;
+  discovery.leaseDuration = Duration_t(2, 0);
+  discovery.leaseDuration_announcementperiod = Duration_t(0, 660'000'000);
+  if (settings.discovery == "peers") add_peers(settings, base);
+  if (settings.discovery == "server") join_server(options, base);
+  if (settings.security) add_security(options, base);
+  return base;
+}
+
+}  // namespace coop::runtime

@@ -1,0 +1,100 @@
+#include "runtime/dds_participant.hpp"
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iterator>
+
+#include "core/config/error.hpp"
+
+namespace coop::runtime {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// The interfaces a participant keeps to; none: all of them.
+std::vector<std::string> interfaces() {
+  const auto qos = participant_qos(
+      {}, {.domain = 0, .participant_name = "x", .partition = {}, .reliable_streams = false});
+  const auto udp = std::dynamic_pointer_cast<eprosima::fastdds::rtps::UDPv4TransportDescriptor>(
+      qos.transport().user_transports.at(0));
+  return udp->interfaceWhiteList;
+}
+
+TEST(ParticipantQos, keeps_to_this_machine_only_where_the_environment_says_so) {
+  ::unsetenv("ROS_LOCALHOST_ONLY");
+  EXPECT_THAT(interfaces(), IsEmpty());
+  ::setenv("ROS_LOCALHOST_ONLY", "0", 1);
+  EXPECT_THAT(interfaces(), IsEmpty());
+  ::setenv("ROS_LOCALHOST_ONLY", "1", 1);
+  EXPECT_THAT(interfaces(), ElementsAre("127.0.0.1"));
+  ::unsetenv("ROS_LOCALHOST_ONLY");
+}
+
+eprosima::fastdds::dds::DomainParticipantQos qos_of(const std::vector<std::string>& settings) {
+  DdsOptions options;
+  options.participant_name = "amcl";
+  options.settings = read_dds_settings(settings);
+  return participant_qos({}, options);
+}
+
+std::string error_of(const std::vector<std::string>& settings) {
+  try {
+    (void)qos_of(settings);
+  } catch (const config::Error& problem) {
+    return problem.what();
+  }
+  return "no error";
+}
+
+std::string property(const eprosima::fastdds::dds::DomainParticipantQos& qos,
+                     const std::string& name) {
+  for (const auto& entry : qos.properties().properties()) {
+    if (entry.name() == name) return entry.value();
+  }
+  return "";
+}
+
+TEST(ParticipantQos, keeps_to_the_interfaces_named_or_says_which_there_are) {
+  const auto named = qos_of({"interfaces=[lo]"});
+  const auto udp = std::dynamic_pointer_cast<eprosima::fastdds::rtps::UDPv4TransportDescriptor>(
+      named.transport().user_transports.at(0));
+  EXPECT_THAT(udp->interfaceWhiteList, ElementsAre("127.0.0.1"));
+  EXPECT_THAT(error_of({"interfaces=[barn0]"}),
+              HasSubstr("dds.interfaces: no interface 'barn0' here; there are: "));
+}
+
+TEST(ParticipantQos, looks_for_peers_on_the_hosts_named_and_on_its_own) {
+  const auto qos = qos_of({"discovery=peers", "peers=[10.1.2.3]", "peer_participants=9"});
+  const auto& peers = qos.wire_protocol().builtin.initialPeersList;
+  ASSERT_EQ(peers.size(), 2U);
+  EXPECT_TRUE(peers.begin()->address[12] == 127);
+  EXPECT_EQ(std::next(peers.begin())->address[15], 3);
+  EXPECT_EQ(qos.transport().user_transports.at(0)->maxInitialPeersRange, 9U);
+  EXPECT_THAT(error_of({"discovery=peers", "peers=[no-such-host.invalid]"}),
+              HasSubstr("dds.peers: no address of 'no-such-host.invalid'"));
+}
+
+TEST(ParticipantQos, asks_the_discovery_server_named) {
+  const auto qos = qos_of({"discovery=server", "server=10.1.2.3:11811"});
+  const auto& discovery = qos.wire_protocol().builtin.discovery_config;
+  EXPECT_EQ(discovery.discoveryProtocol, eprosima::fastrtps::rtps::DiscoveryProtocol_t::CLIENT);
+  ASSERT_EQ(discovery.m_DiscoveryServers.size(), 1U);
+  EXPECT_EQ(discovery.m_DiscoveryServers.front().metatrafficUnicastLocatorList.begin()->port,
+            11811U);
+}
+
+TEST(ParticipantQos, takes_its_own_keys_out_of_the_folder) {
+  const auto qos = qos_of({"security=on", "keys=/keys"});
+  EXPECT_EQ(property(qos, "dds.sec.auth.builtin.PKI-DH.private_key"), "file:///keys/amcl/key.pem");
+  EXPECT_EQ(property(qos, "dds.sec.access.builtin.Access-Permissions.governance"),
+            "file:///keys/public/governance.p7s");
+  EXPECT_TRUE(property(qos_of({}), "dds.sec.auth.plugin").empty());
+}
+
+}  // namespace
+}  // namespace coop::runtime
