@@ -11,7 +11,7 @@ using Date = std::chrono::system_clock::time_point;
 struct Participant {
   enum class Role {
     kComponent,  ///< the topics of its program, and those that concern all
-    kLauncher,   ///< hears of the components' health and the mission's end
+    kLauncher,   ///< the topics it is named for, none of those that concern all
     kPerson,     ///< gives the commands of `coop`, hears everything
     kObserver    ///< hears everything, tells its own health
   };

@@ -240,6 +240,19 @@ TEST_F(HostsTest, without_multicast_and_without_peers_nobody_is_found) {
   EXPECT_FALSE(listening.has_heard_anybody());
 }
 
+TEST_F(HostsTest, a_discovery_server_joins_again_who_was_cut_off) {
+  if (access("/usr/bin/fast-discovery-server", X_OK) != 0) {
+    GTEST_SKIP() << "not run: no fast-discovery-server (package fastdds-tools)";
+  }
+  const std::vector<std::string> dds{"discovery=server",
+                                     "server=" + network_->address("server") + ":11811"};
+  auto server = start_server();
+  start(dds);
+  Operator listening(*network_, dds);
+  ASSERT_TRUE(listening.hears_all()) << output();
+  measure_healing("server", listening);
+}
+
 TEST_F(HostsTest, a_discovery_server_may_die_and_come_back) {
   if (access("/usr/bin/fast-discovery-server", X_OK) != 0) {
     GTEST_SKIP() << "not run: no fast-discovery-server (package fastdds-tools)";
@@ -252,7 +265,6 @@ TEST_F(HostsTest, a_discovery_server_may_die_and_come_back) {
   Operator listening(*network_, dds);
   ASSERT_TRUE(listening.hears_all()) << output();
   measure_joining("server", dds);
-  measure_healing("server", listening);
   server.reset();
   EXPECT_TRUE(listening.hears_all()) << "what was matched goes on without the server";
   Operator late(*network_, dds);

@@ -27,10 +27,11 @@ TEST(PermissionsTest, a_program_nobody_knows_has_what_concerns_all) {
   EXPECT_THAT(of("stranger").publish, ElementsAre("rt/component_status"));
 }
 
-TEST(PermissionsTest, the_launcher_hears_of_health_and_mission_and_says_nothing) {
+TEST(PermissionsTest, the_launcher_watches_and_stops_and_does_no_more) {
   const Rights launcher = of("launcher", Participant::Role::kLauncher);
-  EXPECT_THAT(launcher.publish, ElementsAre());
-  EXPECT_THAT(launcher.subscribe, ElementsAre("rt/component_status", "rt/mission_status"));
+  EXPECT_THAT(launcher.publish, ElementsAre("rt/emergency_stop"));
+  EXPECT_THAT(launcher.subscribe,
+              ElementsAre("rt/component_status", "rt/mission_status", "rt/odom"));
 }
 
 TEST(PermissionsTest, a_person_commands_and_an_observer_only_hears) {
