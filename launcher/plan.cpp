@@ -168,18 +168,13 @@ class Planner {
 
   [[nodiscard]] runtime::DdsSettings dds_of(const Named& component) const {
     runtime::DdsSettings settings = dds();
-    config::Document overrides =
-        config::Document::parse("", component.value.dds_where + ": " + component.name + ": dds");
+    std::vector<std::string> overrides;
     for (const auto& override : component.value.dds) {
       const std::string where = override.where + ": " + component.name + ": dds";
-      overrides.set(override.key + "=" + variables_.replace_in_yaml(override, where));
+      overrides.push_back(override.key + "=" + variables_.replace_in_yaml(override, where));
     }
-    try {
-      overrides.read(settings);
-    } catch (const config::Error& problem) {
-      throw config::Error(component.value.dds_where + ": " + component.name + ": " +
-                          problem.what());
-    }
+    const std::string origin = component.value.dds_where + ": " + component.name + ": dds";
+    runtime::apply_dds_settings(settings, overrides, origin);
     return checked(std::move(settings), component.value.dds_where);
   }
 

@@ -34,17 +34,6 @@ std::string with_origin(std::string message, const std::string& origin) {
   return message;
 }
 
-void apply(DdsSettings& settings, const std::vector<std::string>& assignments,
-           const std::string& origin) {
-  config::Document document;
-  try {
-    for (const std::string& assignment : assignments) document.set(assignment);
-    document.read(settings);
-  } catch (const config::Error& problem) {
-    throw config::Error(with_origin(problem.what(), origin));
-  }
-}
-
 bool is_endpoint(const std::string& text) {
   const std::size_t colon = text.rfind(':');
   if (colon == std::string::npos || colon == 0) return false;
@@ -109,6 +98,17 @@ std::vector<std::string> DdsSettings::assignments() const {
   return out;
 }
 
+void apply_dds_settings(DdsSettings& settings, const std::vector<std::string>& assignments,
+                        const std::string& origin) {
+  config::Document document;
+  try {
+    for (const std::string& assignment : assignments) document.set(assignment);
+    document.read(settings);
+  } catch (const config::Error& problem) {
+    throw config::Error(with_origin(problem.what(), origin));
+  }
+}
+
 DdsSettings read_dds_settings(const std::vector<std::string>& assignments) {
   DdsSettings settings;
   std::vector<std::string> all;
@@ -121,7 +121,7 @@ DdsSettings read_dds_settings(const std::vector<std::string>& assignments) {
   const std::string origin =
       from_both ? std::string("--dds and ") + kVariable : (all.empty() ? "--dds" : kVariable);
   all.insert(all.end(), assignments.begin(), assignments.end());
-  apply(settings, all, origin);
+  apply_dds_settings(settings, all, origin);
   return settings;
 }
 

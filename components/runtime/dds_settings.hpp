@@ -27,6 +27,11 @@ struct DdsSettings {
   [[nodiscard]] std::vector<std::string> assignments() const;
 };
 
+/// `assignments` (`key=value`) on top of `settings`. Throws config::Error that starts with
+/// `origin`.
+void apply_dds_settings(DdsSettings& settings, const std::vector<std::string>& assignments,
+                        const std::string& origin);
+
 /// The settings of the environment variable COOP_DDS (`key=value`, separated by blanks), then
 /// `assignments`. Throws config::Error, one line.
 [[nodiscard]] DdsSettings read_dds_settings(const std::vector<std::string>& assignments);

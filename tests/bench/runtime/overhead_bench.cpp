@@ -219,13 +219,15 @@ void runtime_and_raw(benchmark::State& state) {
     OtherProcess talker("--talk-both", "");
     if (!collect(program, {&coop, &listener, &waiter})) state.SkipWithError("nothing arrives");
     talker.end();
-    state.counters["coop_us"] = coop.quantile(0.5);
-    state.counters["coop_p90_us"] = coop.quantile(0.9);
-    state.counters["raw_waiting_us"] = waiter.quantile(0.5);
-    state.counters["raw_waiting_p90_us"] = waiter.quantile(0.9);
-    state.counters["raw_listening_us"] = listener.quantile(0.5);
-    state.counters["to_waiting"] = coop.quantile(0.5) / waiter.quantile(0.5);
-    state.counters["to_listening"] = coop.quantile(0.5) / listener.quantile(0.5);
+    // The lowest tenth is what the ways themselves take; above it the machine's other work shows.
+    for (const auto& [name, share] : {std::pair("p10", 0.1), std::pair("p50", 0.5)}) {
+      const std::string suffix = std::string("_") + name;
+      state.counters["coop_us" + suffix] = coop.quantile(share);
+      state.counters["raw_waiting_us" + suffix] = waiter.quantile(share);
+      state.counters["raw_listening_us" + suffix] = listener.quantile(share);
+      state.counters["to_waiting" + suffix] = coop.quantile(share) / waiter.quantile(share);
+      state.counters["to_listening" + suffix] = coop.quantile(share) / listener.quantile(share);
+    }
   }
 }
 BENCHMARK(runtime_and_raw)->Iterations(1)->Repetitions(5)->Unit(benchmark::kSecond)->UseRealTime();
@@ -278,7 +280,7 @@ void security(benchmark::State& state) {
     if (!collect(program, {&coop})) state.SkipWithError("nothing arrives");
     const double used = own_processor_time() - before + talker.end();
     state.counters["latency_us"] = coop.quantile(0.5);
-    state.counters["latency_p90_us"] = coop.quantile(0.9);
+    state.counters["latency_us_p10"] = coop.quantile(0.1);
     state.counters["cpu_us_a_message"] = 1e6 * used / static_cast<double>(coop.size());
   }
 }

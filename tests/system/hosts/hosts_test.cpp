@@ -170,10 +170,11 @@ class HostsTest : public ::testing::Test {
   }
 
   std::unique_ptr<Program> start_server() {
-    return network_->run("server",
-                         {"/usr/bin/fast-discovery-server", "-i", "0", "-l",
-                          network_->address("server"), "-p", "11811", "-b"},
-                         folder_.path(), "server.out");
+    return network_->run(
+        "server",
+        {"/usr/bin/fast-discovery-server", "-x", COOP_SOURCE_DIR "/config/dds/discovery_server.xml",
+         "-i", "0", "-l", network_->address("server"), "-p", "11811", "-b"},
+        folder_.path(), "server.out");
   }
 
   std::optional<HostNetwork> network_;

@@ -24,6 +24,7 @@ namespace coop::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 using Wall = std::chrono::steady_clock;
 
@@ -120,6 +121,58 @@ TEST_F(NetworkTest, what_looks_like_a_shell_command_in_a_launch_file_is_a_text) 
                         "components:\n  a: {executable: 'true; touch " + bait.string() + "'}\n");
   EXPECT_EQ(run_launcher({"check", file.string()}, folder_.path()).code, 1);
   EXPECT_FALSE(std::filesystem::exists(bait));
+}
+
+/// Writers of scans that somebody hears who looks at one robot.
+class Visitor {
+ public:
+  explicit Visitor(const std::string& robot)
+      : listener_({.domain = test_domain(), .participant_name = "visitor", .partition = robot}) {
+    listener_.node().subscribe<sensor_msgs::msg::LaserScan>(
+        "scan", runtime::Qos::kSensorStream,
+        [this](const sensor_msgs::msg::LaserScan&, const runtime::MessageInfo& info) {
+          ++scans_[std::string(info.writer)];
+        });
+  }
+  /// How many each has told, when one has told thirty.
+  std::vector<int> scans() {
+    EXPECT_TRUE(wait_until(
+        [this] {
+          listener_.look();
+          return std::ranges::any_of(scans_, [](const auto& heard) { return heard.second >= 30; });
+        },
+        kPatience));
+    std::vector<int> counts;
+    for (const auto& [writer, count] : scans_) counts.push_back(count);
+    return counts;
+  }
+
+ private:
+  Listener listener_;
+  std::map<std::string, int> scans_;
+};
+
+TEST_F(NetworkTest, systems_of_two_robots_on_one_domain_do_not_mix) {
+  std::string text = "components:\n";
+  for (const std::string& name : kParts) text += small_component(folder_.path(), name);
+  const auto file = folder_.path() / "small.yaml";
+  write_file_atomically(file, text);
+  RunningSystem ducky(file, {"--robot", "ducky"});
+  RunningSystem piggy(file, {"--robot", "piggy"});
+  for (RunningSystem* system : {&ducky, &piggy}) {
+    ASSERT_TRUE(wait_until(
+        [system] {
+          return system->launcher().output().find("all 3 components ready") != std::string::npos;
+        },
+        kPatience))
+        << system->launcher().output();
+  }
+  Visitor at_ducky("ducky");
+  Visitor at_piggy("piggy");
+  EXPECT_EQ(at_ducky.scans().size(), 1U);
+  EXPECT_EQ(at_piggy.scans().size(), 1U);
+  EXPECT_EQ(ducky.stop().value().code, 0);
+  EXPECT_THAT(piggy.launcher().output(), Not(HasSubstr("stopp")));
 }
 
 /// Who watches a system under fire, without being a target.

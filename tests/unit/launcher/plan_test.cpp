@@ -116,9 +116,9 @@ TEST_F(PlanTest, SettingsOfTheMiddlewareThatDoNotGoTogetherAreOneLine) {
   EXPECT_EQ(error_of("robot: x\ndds: {discovery: server}\ncomponents:\n  a: {}\n"),
             "/launch/x.yaml:2: dds.server: expected ADDRESS:PORT with discovery: server, got ''");
   EXPECT_EQ(error_of("components:\n  a:\n    dds: {interfces: [lo]}\n"),
-            "/launch/x.yaml:3: a: dds:1: unknown key 'interfces'; did you mean 'interfaces'?");
+            "/launch/x.yaml:3: a: dds: unknown key 'interfces'; did you mean 'interfaces'?");
   EXPECT_THAT(error_of("dds: {discovry: simple}\ncomponents:\n  a: {}\n"),
-              HasSubstr("unknown key 'discovry'; did you mean 'discovery'?"));
+              HasSubstr("unknown key 'dds.discovry'; did you mean 'discovery'?"));
 }
 
 TEST_F(PlanTest, AProgramWithoutHeartbeatGetsOnlyItsOwnArguments) {
