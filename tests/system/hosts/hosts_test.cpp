@@ -241,19 +241,6 @@ TEST_F(HostsTest, without_multicast_and_without_peers_nobody_is_found) {
   EXPECT_FALSE(listening.has_heard_anybody());
 }
 
-TEST_F(HostsTest, a_discovery_server_joins_again_who_was_cut_off) {
-  if (access("/usr/bin/fast-discovery-server", X_OK) != 0) {
-    GTEST_SKIP() << "not run: no fast-discovery-server (package fastdds-tools)";
-  }
-  const std::vector<std::string> dds{"discovery=server",
-                                     "server=" + network_->address("server") + ":11811"};
-  auto server = start_server();
-  start(dds);
-  Operator listening(*network_, dds);
-  ASSERT_TRUE(listening.hears_all()) << output();
-  measure_healing("server", listening);
-}
-
 TEST_F(HostsTest, a_discovery_server_may_die_and_come_back) {
   if (access("/usr/bin/fast-discovery-server", X_OK) != 0) {
     GTEST_SKIP() << "not run: no fast-discovery-server (package fastdds-tools)";
@@ -274,8 +261,6 @@ TEST_F(HostsTest, a_discovery_server_may_die_and_come_back) {
   const auto begin = Wall::now();
   ASSERT_TRUE(late.hears_all()) << server->output();
   report("server", "who joined while it was down, from its restart", {seconds_since(begin)});
-  network_->lose(0.2);
-  measure_joining("server, one packet in five lost", dds);
 }
 
 }  // namespace

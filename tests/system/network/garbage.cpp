@@ -62,6 +62,25 @@ std::vector<Packet> capture_rtps(const std::vector<std::uint16_t>& ports,
   return packets;
 }
 
+Packet deadly_packet() {
+  Packet packet{'R', 'T', 'P', 'S', 2, 2, 1, 15};
+  packet.resize(kHeader);
+  packet.insert(packet.end(), {kDeadlyKind, 1, 8, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  return packet;
+}
+
+bool is_deadly(const Packet& packet) {
+  for (std::size_t at = kHeader; at + 4 <= packet.size();) {
+    if (packet[at] == kDeadlyKind) return true;
+    const bool is_little = (packet[at + 1] & 1U) != 0;
+    const std::size_t low = packet[at + (is_little ? 2 : 3)];
+    const std::size_t size = low + 256U * packet[at + (is_little ? 3 : 2)];
+    if (size == 0) return false;  // to the end of the packet
+    at += 4 + size;
+  }
+  return false;
+}
+
 Garbage::Garbage(std::vector<Packet> genuine, std::uint64_t seed)
     : genuine_(std::move(genuine)), random_(seed) {}
 
@@ -113,6 +132,13 @@ Packet Garbage::mutated() {
 }
 
 Packet Garbage::next() {
+  for (;;) {
+    Packet packet = any();
+    if (!is_deadly(packet)) return packet;
+  }
+}
+
+Packet Garbage::any() {
   const std::size_t choice = below(10);
   if (choice == 0) return noise(1500);
   if (choice == 1 || genuine_.empty()) {  // a proper header, then noise

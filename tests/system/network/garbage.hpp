@@ -13,8 +13,17 @@ using Packet = std::vector<std::uint8_t>;
 [[nodiscard]] std::vector<Packet> capture_rtps(const std::vector<std::uint16_t>& ports,
                                                std::chrono::milliseconds duration);
 
-/// What somebody may throw at an open port: noise, noise behind a proper header, and genuine
-/// packets cut short, with bits flipped, lengths changed, pieces swapped.
+/// Sub-messages of this kind end a program of Fast DDS 2.9.1 (an assertion on their place in the
+/// packet) whoever sends them: see docs/security.md.
+inline constexpr std::uint8_t kDeadlyKind = 0x80;
+
+/// A packet of a proper header and one such sub-message.
+[[nodiscard]] Packet deadly_packet();
+[[nodiscard]] bool is_deadly(const Packet& packet);
+
+/// What somebody may throw at an open port, but for packets known to be deadly: noise, noise behind
+/// a proper header, and genuine packets cut short, with bits flipped, lengths changed, pieces
+/// swapped.
 class Garbage {
  public:
   Garbage(std::vector<Packet> genuine, std::uint64_t seed);
@@ -24,6 +33,7 @@ class Garbage {
   [[nodiscard]] std::size_t below(std::size_t limit);
   [[nodiscard]] Packet noise(std::size_t longest);
   [[nodiscard]] Packet mutated();
+  [[nodiscard]] Packet any();
 
   std::vector<Packet> genuine_;
   std::mt19937_64 random_;
