@@ -58,7 +58,9 @@ class Operator {
     listener_.node().subscribe<coop_msgs::msg::ComponentStatus>(
         "component_status", runtime::Qos::kHeartbeat,
         [this](const coop_msgs::msg::ComponentStatus& status) {
-          heard_[status.name()] = status.state();
+          // Not oneself.
+          if (std::ranges::find(kComponents, status.name()) != kComponents.end())
+            heard_[status.name()] = status.state();
         });
     listener_.node().subscribe<sensor_msgs::msg::LaserScan>("scan", runtime::Qos::kSensorStream,
                                                             [this](const auto&) { ++scans_; });

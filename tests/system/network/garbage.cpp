@@ -22,6 +22,10 @@ constexpr std::array<std::uint8_t, 4> kMagic{'R', 'T', 'P', 'S'};
 constexpr std::array<std::uint8_t, 16> kKinds{0x01, 0x06, 0x07, 0x08, 0x09, 0x0c, 0x0d, 0x0e,
                                               0x0f, 0x12, 0x13, 0x15, 0x16, 0x30, 0x31, 0x33};
 
+/// A sub-message that Fast DDS puts at the end of its packets.
+constexpr std::uint8_t kStatistics = 0x80;
+constexpr std::uint8_t kStatisticsSize = 56;
+
 bool is_rtps(const Packet& packet) {
   return packet.size() > kHeader && std::equal(kMagic.begin(), kMagic.end(), packet.begin());
 }
@@ -65,18 +69,18 @@ std::vector<Packet> capture_rtps(const std::vector<std::uint16_t>& ports,
 Packet deadly_packet() {
   Packet packet{'R', 'T', 'P', 'S', 2, 2, 1, 15};
   packet.resize(kHeader);
-  packet.insert(packet.end(), {kDeadlyKind, 1, 8, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  packet.insert(packet.end(), {kStatistics, 1, kStatisticsSize, 0});
+  packet.resize(packet.size() + kStatisticsSize + 4);  // and more behind it
   return packet;
 }
 
 bool is_deadly(const Packet& packet) {
   for (std::size_t at = kHeader; at + 4 <= packet.size();) {
-    if (packet[at] == kDeadlyKind) return true;
     const bool is_little = (packet[at + 1] & 1U) != 0;
     const std::size_t low = packet[at + (is_little ? 2 : 3)];
-    const std::size_t size = low + 256U * packet[at + (is_little ? 3 : 2)];
-    if (size == 0) return false;  // to the end of the packet
-    at += 4 + size;
+    const std::size_t end = at + 4 + low + 256U * packet[at + (is_little ? 3 : 2)];
+    if (packet[at] == kStatistics && end - at - 4 == kStatisticsSize) return end < packet.size();
+    at = end;
   }
   return false;
 }

@@ -13,11 +13,8 @@ using Packet = std::vector<std::uint8_t>;
 [[nodiscard]] std::vector<Packet> capture_rtps(const std::vector<std::uint16_t>& ports,
                                                std::chrono::milliseconds duration);
 
-/// Sub-messages of this kind end a program of Fast DDS 2.9.1 (an assertion on their place in the
-/// packet) whoever sends them: see docs/security.md.
-inline constexpr std::uint8_t kDeadlyKind = 0x80;
-
-/// A packet of a proper header and one such sub-message.
+/// A packet that ends a program of Fast DDS 2.9.1 whoever sends it: a statistics sub-message that
+/// is not the last of its packet fails an assertion (docs/security.md).
 [[nodiscard]] Packet deadly_packet();
 [[nodiscard]] bool is_deadly(const Packet& packet);
 
