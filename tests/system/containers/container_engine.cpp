@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds kStart{60};
+constexpr const char* kBridge = "/sys/class/net/docker0";
 constexpr std::chrono::minutes kBase{8};
 
 std::string last_part(const std::string& text) {
@@ -89,7 +90,9 @@ std::string ContainerEngine::obstacle() {
 ContainerEngine::ContainerEngine() {
   // The legacy builder is the one that every engine has.
   setenv("DOCKER_BUILDKIT", "0", 1);
-  if (!engine_answers()) start();
+  if (engine_answers()) return;
+  had_bridge_ = fs::exists(kBridge);
+  start();
 }
 
 void ContainerEngine::start() {
@@ -115,6 +118,8 @@ ContainerEngine::~ContainerEngine() {
   daemon_.reset();
   umount2((folder() / "exec" / "netns" / "default").c_str(), MNT_DETACH);
   unsetenv("DOCKER_HOST");
+  // An address more or less changes what DDS takes for the host.
+  if (!had_bridge_) (void)run_tool("ip", {"link", "delete", "docker0"});
 }
 
 void ContainerEngine::need_base_image(const fs::path& cache, const std::string& packages) const {

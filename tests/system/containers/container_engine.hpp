@@ -43,6 +43,7 @@ class ContainerEngine {
   [[nodiscard]] std::filesystem::path folder() const { return folder_.path(); }
 
   TemporaryFolder folder_;
+  bool had_bridge_ = true;
   std::unique_ptr<Program> daemon_;
 };
 
