@@ -1,6 +1,9 @@
 #pragma once
 #include <atomic>
+#include <chrono>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "core/time.hpp"
 
@@ -22,6 +25,25 @@ class SystemClock : public Clock {
         std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch()));
   }
   [[nodiscard]] bool is_system() const override { return true; }
+};
+
+/// Notices that somebody has set the system's clock, by a clock that nobody can set.
+class ClockSettings {
+ public:
+  using Steady = std::chrono::steady_clock::time_point;
+
+  /// By how much the system's clock was set since the call before; zero where it only ran on, up to
+  /// what adjusting its rate makes of it.
+  [[nodiscard]] Duration change(Time system, Steady steady) {
+    const Duration offset =
+        system.time_since_epoch() - std::chrono::duration_cast<Duration>(steady.time_since_epoch());
+    const Duration change = offset - std::exchange(offset_, offset).value_or(offset);
+    return std::chrono::abs(change) < kTolerance ? Duration{0} : change;
+  }
+
+ private:
+  static constexpr Duration kTolerance = std::chrono::milliseconds(50);
+  std::optional<Duration> offset_;
 };
 
 /// Set from outside: by the /clock topic, or by a test. Time{} until it was first set.

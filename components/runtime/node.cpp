@@ -9,6 +9,9 @@
 namespace coop::runtime {
 namespace {
 
+/// From here on a system clock that is set back is a jump for the component as well.
+constexpr Duration kStepBack = std::chrono::seconds(1);
+
 /// How long a program that ends waits, in all, for readers that have missed its last messages.
 constexpr std::chrono::milliseconds kLastWords{500};
 
@@ -233,6 +236,18 @@ void Node::handle_clock_jump() {
   impl_->executor.on_clock_jump();
   if (impl_->listener) impl_->listener->clear();
   for (const auto& callback : impl_->jump_callbacks) callback();
+}
+
+void Node::handle_system_clock_set(Duration change) {
+  if (!impl_->clock.is_system()) return;
+  impl_->log.warning("the system's clock was set by {:.2f} s", to_seconds(change));
+  if (impl_->pacing) impl_->pacing->restart();
+  // What is stamped after a small step back still sorts into what was before.
+  if (change <= -kStepBack) {
+    handle_clock_jump();
+  } else {
+    impl_->executor.on_clock_jump();
+  }
 }
 
 void Node::stop() {

@@ -139,6 +139,9 @@ class Node {
   [[nodiscard]] bool wants_to_end() const;
   [[nodiscard]] int exit_code() const;
   void handle_clock_jump();
+  /// The system's clock was set by `change`: nothing that runs by it may wait until it is again as
+  /// late as it was. Under simulated time nothing does.
+  void handle_system_clock_set(Duration change);
 
  private:
   [[nodiscard]] std::shared_ptr<Writer> create_writer(const std::string& topic,

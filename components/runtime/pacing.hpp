@@ -21,6 +21,11 @@ class Pacing {
   /// Ticks to run now; the first call starts the count. A simulation that cannot keep up, or whose
   /// process slept, falls behind instead of hurrying after: what it lost adds to lost().
   [[nodiscard]] int due(Time wall_now);
+  /// The next call of due() starts the count again: the wall's clock was set.
+  void restart() {
+    base_ = Time{};
+    done_ = 0;
+  }
   /// Simulated time by which the simulation has fallen behind the wall so far.
   [[nodiscard]] Duration lost() const { return lost_; }
   /// How often due() should be asked.

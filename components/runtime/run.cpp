@@ -49,8 +49,11 @@ class ClockFollower {
   }
 };
 
-void run_until_stopped(Executor& executor, const Node& node) {
+void run_until_stopped(Executor& executor, Node& node) {
+  ClockSettings settings;
   while (!StopSignal::requested() && !node.wants_to_end()) {
+    const Duration change = settings.change(SystemClock().now(), Executor::Wall::now());
+    if (change != Duration{0}) node.handle_system_clock_set(change);
     executor.wait_and_run(std::chrono::milliseconds(500));
   }
 }

@@ -52,7 +52,8 @@ bool CommandGate::accept(const Twist2& command, Time received) {
 CommandGate::Decision CommandGate::decide(Time now) const {
   if (stops_.engaged()) return {{}, DriveCause::kEmergencyStop};
   if (!last_) return {{}, DriveCause::kNoCommand};
-  if (now - last_->at > timeout_) return {{}, DriveCause::kCommandStale};
+  // A clock that was set back makes no command young again.
+  if (now < last_->at || now - last_->at > timeout_) return {{}, DriveCause::kCommandStale};
   return {last_->command, DriveCause::kCommand};
 }
 

@@ -17,7 +17,7 @@ struct SlamNodeConfig {
   double odometry_patience =
       2.0;  ///< s a scan waits for its odometry; with reliable streams: for ever
   std::string session = "slam.session";  ///< in the run's folder: map and pose; empty: none
-  double session_period = 10.0;          ///< s between two sessions written
+  double session_period = 3.0;           ///< s between two sessions written
   double session_age = 600.0;            ///< s, an older session is not gone on with
   bool resume = true;                    ///< go on from the session that is there
   OdometryRestart odometry_restart;

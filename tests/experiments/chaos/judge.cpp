@@ -17,13 +17,14 @@ constexpr double kSameEgg = 0.10;  ///< m
 
 }  // namespace
 
-Stopping judge_stopping(const std::vector<Motion>& motion, double lost, double found) {
+Stopping judge_stopping(const std::vector<Motion>& motion, double lost, double found,
+                        double clock_error) {
   Stopping result;
   double at_loss = 0.0;
   double limit = 0.0;  // the slowest it has been since it must brake
   double begun = lost;
   double slowest = 1e9;
-  const double due = lost + kReaction + kClockError;
+  const double due = lost + kReaction + clock_error;
   for (const Motion& now : motion) {
     if (now.time <= lost) at_loss = now.speed;
     if (now.time < lost || now.time > found) continue;

@@ -25,15 +25,15 @@ struct Stopping {
 /// The base brakes with this at the least, m/s^2, and follows its set point with this delay, s.
 inline constexpr double kBraking = 0.8;
 inline constexpr double kDriveDelay = 0.3;
-/// s after the loss of what it needs by which the robot must brake, and what the observer's own
-/// clock is off at most.
+/// s after the loss of what it needs by which the robot must brake.
 inline constexpr double kReaction = 0.3;
-inline constexpr double kClockError = 0.06;
 
 /// Judges the motion from `lost` to `found` (s of simulated time): from kReaction after the loss on
 /// it must not become faster, and must be at rest in the time that braking takes. Where the loss
-/// lasted for less than kReaction, nothing is asked for.
-[[nodiscard]] Stopping judge_stopping(const std::vector<Motion>& motion, double lost, double found);
+/// lasted for less than kReaction, nothing is asked for. `clock_error`: s by which `lost` may be
+/// early.
+[[nodiscard]] Stopping judge_stopping(const std::vector<Motion>& motion, double lost, double found,
+                                      double clock_error);
 
 /// Eggs of the mission against those of the world. Empty where they agree.
 [[nodiscard]] std::vector<std::string> judge_eggs(const coop_msgs::msg::MissionStatus& mission,

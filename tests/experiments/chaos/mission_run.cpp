@@ -146,6 +146,11 @@ void MissionRun::ask() {
   if (Wall::now() - asked_ < kAskEvery) return;
   asked_ = Wall::now();
   view_ = system_.view();
+  if (!view_ || replaced_) return;
+  for (const auto& row : view_->rows) {
+    const bool is_new = row.name == hit_ && row.pid != 0 && row.pid != hit_pid_;
+    if (is_new) replaced_ = observer_.simulated();
+  }
 }
 
 /// Whether anything tells of the fault: a component of itself, or the launcher of one.
@@ -179,8 +184,10 @@ bool MissionRun::component_is_back(const Incident& incident, pid_t pid, Wall::ti
     return status && status->pid != pid &&
            observer_.components().successor_at_work(name, begin).has_value();
   }
+  // The planner's costmap is told when it changes: there its heartbeat must do.
+  const auto status = observer_.components().status(name);
   const auto work = observer_.components().last_at_work(name);
-  return work && *work > over;
+  return (work && *work > over) || (name == "global_planner" && status && status->heard > over);
 }
 
 bool MissionRun::all_well(Wall::time_point since) {
@@ -203,6 +210,9 @@ void MissionRun::happen(Fault fault) {
                     .seen = {},
                     .wrong = {}};
   const Fault& what = incident.fault;
+  hit_ = what.component;
+  hit_pid_ = pid;
+  replaced_.reset();
   observer_.look(milliseconds(0));
   const auto begin_at = Wall::now();
   begin(what, pid);
@@ -227,9 +237,8 @@ void MissionRun::happen(Fault fault) {
       options_.recovery);
   if (recovered) incident.recovered = seconds_since(over);
   if (!recovered) incident.wrong = "does not recover";
-  const auto successor = observer_.components().successor_at_work(what.component, begin_at);
   const double found = what.kind == FaultKind::kKill ? observer_.simulated() : lifted;
-  judge(incident, lost, successor ? std::min(found, successor->mark) : found);
+  judge(incident, lost, std::min(found, replaced_.value_or(found)));
   if (!incident.wrong.empty()) {
     complain(fmt::format("{} {}: {}", name_of(what.kind), what.component, incident.wrong));
   }
@@ -243,8 +252,9 @@ void MissionRun::happen(Fault fault) {
 
 void MissionRun::judge(Incident& incident, double lost, double found) {
   if (!is_needed_to_drive(incident.fault)) return;
-  const Stopping stopping = judge_stopping(observer_.motion_since(lost - 0.1), lost, found);
-  if (!stopping.was_moving || found - lost < kReaction + kClockError) return;
+  const Stopping stopping =
+      judge_stopping(observer_.motion_since(lost - 0.1), lost, found, clock_error());
+  if (!stopping.was_moving || found - lost < kReaction + clock_error()) return;
   incident.braking = stopping.begun_after;
   if (!stopping.is_safe) {
     incident.wrong += fmt::format("{}not braking: {:.2f} s after the loss it still drove",

@@ -31,6 +31,8 @@ class MissionRun {
   void keep_up(const Fault& fault, pid_t pid, double elapsed) const;
   void end(const Fault& fault, pid_t pid);
   void ask();
+  /// s of simulated time: what the observer hears is late by some 20 ms.
+  [[nodiscard]] double clock_error() const { return 0.02 * options_.rate; }
   void notice(Incident& incident, pid_t pid, Wall::time_point begin);
   [[nodiscard]] bool all_well(Wall::time_point since);
   [[nodiscard]] bool component_is_back(const Incident& incident, pid_t pid, Wall::time_point begin,
@@ -53,6 +55,10 @@ class MissionRun {
   std::uint32_t collisions_ = 0;
   std::optional<launcher::SystemView> view_;  ///< as the launcher told it at asked_
   Wall::time_point asked_{};
+  std::string hit_;  ///< whom the fault meets, with what pid
+  pid_t hit_pid_ = 0;
+  /// s of simulated time when the launcher had started a successor: from then on it may be at work.
+  std::optional<double> replaced_;
 };
 
 }  // namespace coop::chaos

@@ -15,7 +15,6 @@ Observer::Observer(int domain)
     : components_(domain),
       clock_(
           components_.node().advertise<rosgraph_msgs::msg::Clock>("clock", runtime::Qos::kEvent)) {
-  components_.set_marker([this] { return simulated(); });
   components_.node().subscribe<coop_msgs::msg::MissionStatus>(
       "mission_status", runtime::Qos::kStateLatched,
       [this](const coop_msgs::msg::MissionStatus& status) { mission_ = status; });

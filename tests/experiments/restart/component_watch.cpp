@@ -64,7 +64,7 @@ void ComponentWatch::saw(const std::string& component, std::string_view writer) 
   auto& writers = writers_[component];
   const auto found = writers.find(writer);
   if (found == writers.end()) {
-    writers.emplace(writer, Seen{{now, marker_()}, now});
+    writers.emplace(writer, Seen{now, now});
   } else {
     found->second.last = now;
   }
@@ -81,13 +81,13 @@ bool ComponentWatch::is_ready(const std::string& component) const {
   return found && found->state == coop_msgs::msg::ComponentStatus_Constants::READY;
 }
 
-std::optional<ComponentWatch::Sight> ComponentWatch::successor_at_work(
-    const std::string& component, Wall::time_point since) const {
+std::optional<Wall::time_point> ComponentWatch::successor_at_work(const std::string& component,
+                                                                  Wall::time_point since) const {
   const auto found = writers_.find(component);
   if (found == writers_.end()) return std::nullopt;
-  std::optional<Sight> first;
+  std::optional<Wall::time_point> first;
   for (const auto& [writer, seen] : found->second) {
-    if (seen.first.at > since && (!first || seen.first.at < first->at)) first = seen.first;
+    if (seen.first > since && (!first || seen.first < *first)) first = seen.first;
   }
   return first;
 }

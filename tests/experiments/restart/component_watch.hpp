@@ -1,6 +1,5 @@
 #pragma once
 #include <chrono>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -31,19 +30,12 @@ class ComponentWatch {
   [[nodiscard]] std::optional<Status> status(const std::string& component) const;
   [[nodiscard]] bool is_ready(const std::string& component) const;
 
-  struct Sight {
-    Wall::time_point at;
-    double mark = 0.0;  ///< of set_marker() then
-  };
   /// When the first proof came from a process of `component` that nothing had been heard of before
   /// `since`.
-  [[nodiscard]] std::optional<Sight> successor_at_work(const std::string& component,
-                                                       Wall::time_point since) const;
+  [[nodiscard]] std::optional<Wall::time_point> successor_at_work(const std::string& component,
+                                                                  Wall::time_point since) const;
   /// When the newest proof came, of whatever process.
   [[nodiscard]] std::optional<Wall::time_point> last_at_work(const std::string& component) const;
-
-  /// Asked at each first proof of a process, before what arrived together with it is handled.
-  void set_marker(std::function<double()> marker) { marker_ = std::move(marker); }
 
   [[nodiscard]] runtime::Node& node() { return listener_.node(); }
 
@@ -53,11 +45,10 @@ class ComponentWatch {
   void saw(const std::string& component, std::string_view writer);
 
   struct Seen {
-    Sight first;
+    Wall::time_point first;
     Wall::time_point last;
   };
   test::Listener listener_;
-  std::function<double()> marker_ = [] { return 0.0; };
   std::map<std::string, Status> statuses_;
   std::map<std::string, std::map<std::string, Seen, std::less<>>> writers_;
 };

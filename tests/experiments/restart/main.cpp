@@ -66,7 +66,7 @@ class Robot {
              Wall::now() - status->since > kStays && watch_.successor_at_work(component, begin);
     });
     if (!is_back) return std::nullopt;
-    const auto work = watch_.successor_at_work(component, begin)->at;
+    const auto work = *watch_.successor_at_work(component, begin);
     return Seconds(std::max(watch_.status(component)->since, work) - begin).count();
   }
 

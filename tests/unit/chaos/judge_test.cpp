@@ -23,13 +23,13 @@ std::vector<Motion> drive(double brakes) {
 }
 
 TEST(JudgeStopping, WhoBrakesInTimeIsSafe) {
-  const Stopping stopping = judge_stopping(drive(1.3), 1.0, 3.0);
+  const Stopping stopping = judge_stopping(drive(1.3), 1.0, 3.0, 0.05);
   EXPECT_TRUE(stopping.was_moving);
   EXPECT_TRUE(stopping.is_safe);
 }
 
 TEST(JudgeStopping, WhoDrivesOnIsNot) {
-  EXPECT_FALSE(judge_stopping(drive(2.5), 1.0, 3.0).is_safe);
+  EXPECT_FALSE(judge_stopping(drive(2.5), 1.0, 3.0, 0.05).is_safe);
 }
 
 TEST(JudgeStopping, WhoBrakesAndDrivesOffAgainBeforeItIsBackIsNot) {
@@ -37,18 +37,18 @@ TEST(JudgeStopping, WhoBrakesAndDrivesOffAgainBeforeItIsBackIsNot) {
   for (Motion& now : motion) {
     if (now.time > 2.4) now.speed = 0.3;
   }
-  const Stopping stopping = judge_stopping(motion, 1.0, 3.0);
+  const Stopping stopping = judge_stopping(motion, 1.0, 3.0, 0.05);
   EXPECT_FALSE(stopping.is_safe);
   EXPECT_NEAR(stopping.begun_after, 1.42, 0.03);
-  EXPECT_TRUE(judge_stopping(motion, 1.0, 2.3).is_safe) << "it was back by then";
+  EXPECT_TRUE(judge_stopping(motion, 1.0, 2.3, 0.05).is_safe) << "it was back by then";
 }
 
 TEST(JudgeStopping, AShortLossAsksForNothing) {
-  EXPECT_TRUE(judge_stopping(drive(9.0), 1.0, 1.3).is_safe);
+  EXPECT_TRUE(judge_stopping(drive(9.0), 1.0, 1.3, 0.05).is_safe);
 }
 
 TEST(JudgeStopping, AStandingRobotHasNothingToDo) {
-  const Stopping stopping = judge_stopping(drive(0.0), 2.0, 3.0);
+  const Stopping stopping = judge_stopping(drive(0.0), 2.0, 3.0, 0.05);
   EXPECT_FALSE(stopping.was_moving);
   EXPECT_TRUE(stopping.is_safe);
 }

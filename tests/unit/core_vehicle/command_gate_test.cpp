@@ -28,6 +28,14 @@ TEST(CommandGate, LetsACommandThroughForExactlyTheTimeout) {
   EXPECT_EQ(late.command, Twist2{});
 }
 
+TEST(CommandGate, AClockSetBackMakesNoCommandYoungAgain) {
+  CommandGate gate({.command_timeout = 0.3});
+  EXPECT_TRUE(gate.accept({0.4, 0.1}, at(3600.0)));
+  EXPECT_EQ(gate.decide(at(10.0)).cause, DriveCause::kCommandStale);
+  EXPECT_TRUE(gate.accept({0.4, 0.1}, at(10.0)));
+  EXPECT_EQ(gate.decide(at(10.1)).cause, DriveCause::kCommand);
+}
+
 TEST(CommandGate, ANewCommandRevivesTheBase) {
   CommandGate gate;
   gate.accept({0.4, 0.0}, at(1.0));
