@@ -7,6 +7,13 @@ namespace coop::arm_driver {
 using Eigen::Vector3d;
 using Phase = PickSequence::Phase;
 
+namespace {
+
+/// Between two steps; the sequence is asked some fifty times a second.
+constexpr Duration kLongestStep = std::chrono::milliseconds(100);
+
+}  // namespace
+
 std::string_view to_string(PickSequence::Phase phase) {
   switch (phase) {
     case Phase::kRecover:
@@ -79,6 +86,8 @@ const ArmOutputs& PickSequence::step(const ArmInputs& inputs, Time now) {
   if (first) {
     out_.suction = inputs.suction;
     out_.target = inputs.positions;
+  } else if (now - now_ > kLongestStep) {
+    pass_over(now - now_ - kLongestStep);
   }
   now_ = now;
   positions_ = inputs.positions;
@@ -98,6 +107,13 @@ const ArmOutputs& PickSequence::step(const ArmInputs& inputs, Time now) {
   }
   out_.busy = phase_ != Phase::kIdle || record_.running.has_value();
   return out_;
+}
+
+/// The driver did not run (stopped, or its clock jumped ahead): no motion is late for that time.
+void PickSequence::pass_over(Duration time) {
+  since_ += time;
+  vacuum_known_ += time;
+  vacuum_changed_ += time;
 }
 
 void PickSequence::take(const PickOrder& order) {

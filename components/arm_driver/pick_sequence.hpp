@@ -56,7 +56,9 @@ struct ArmOutputs {
 /// the base may drive then.
 ///
 /// Under an emergency stop the joints stay where they are and the suction as it is; afterwards the
-/// phase that was interrupted begins again from there. The same happens when time is set back.
+/// phase that was interrupted begins again from there. The same happens when time is set back. Time
+/// that passes without steps (the driver was stopped) does not count: an egg on the cup stays
+/// there.
 class PickSequence {
  public:
   enum class Phase {
@@ -85,6 +87,7 @@ class PickSequence {
   [[nodiscard]] bool knows(std::string_view pick_id) const;
 
  private:
+  void pass_over(Duration time);
   void take(const PickOrder& order);
   void start(const PickOrder& order);
   void enter(Phase phase);

@@ -302,5 +302,20 @@ TEST(PickSequence, TimeSetBackInMidPickDoesNotStopIt) {
   EXPECT_EQ(bench.reports[0].outcome, PickOutcome::kPicked);
 }
 
+TEST(PickSequence, ADriverThatWasStoppedForSecondsGoesOnWhereItWas) {
+  for (const Phase phase : {Phase::kApproach, Phase::kLift, Phase::kCarry, Phase::kLower,
+                            Phase::kRelease, Phase::kHome}) {
+    BenchArm bench;
+    bench.order("p1");
+    ASSERT_TRUE(bench.run_to(phase));
+    bench.run_for(0.1);
+    bench.time += 9.0;
+    ASSERT_TRUE(bench.run_to_report()) << to_string(phase);
+    EXPECT_EQ(bench.reports[0].outcome, PickOutcome::kPicked)
+        << to_string(phase) << ": " << bench.reports[0].detail;
+    EXPECT_EQ(bench.eggs_in_basket, 1) << to_string(phase);
+  }
+}
+
 }  // namespace
 }  // namespace coop::arm_driver
