@@ -214,8 +214,8 @@ void MissionRun::happen(Fault fault) {
   hit_pid_ = pid;
   replaced_.reset();
   observer_.look(milliseconds(0));
-  const auto begin_at = Wall::now();
   begin(what, pid);
+  const auto begin_at = Wall::now();
   (void)look_until([&] { return Wall::now() - begin_at > kUnderWay; }, 1.0);
   const double lost = observer_.simulated();
   (void)look_until(
