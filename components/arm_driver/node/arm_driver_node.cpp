@@ -18,9 +18,10 @@ using runtime::Qos;
 
 constexpr auto kTick = std::chrono::milliseconds(20);
 // Each how many ticks:
-constexpr std::uint64_t kJointStates = 2;   // 25 Hz
-constexpr std::uint64_t kLinks = 5;         // 10 Hz
-constexpr std::uint64_t kIdleGripper = 10;  // 5 Hz
+constexpr std::uint64_t kJointStates = 2;    // 25 Hz
+constexpr std::uint64_t kLinks = 5;          // 10 Hz
+constexpr std::uint64_t kIdleGripper = 10;   // 5 Hz
+constexpr std::uint64_t kJournalRetry = 25;  // 2 Hz, while it cannot be written
 constexpr std::array<std::string_view, 1> kBackends{"sim"};
 
 /// Frames fixed to the robot that no other component tells of.
@@ -144,7 +145,8 @@ void ArmDriverNode::tick() {
   const ArmOutputs& outputs = sequence_->step(
       {reading.positions, reading.suction, reading.vacuum, stops_.engaged(), inbox_->take(now)},
       now);
-  if (outputs.record_changed) save_record();
+  const bool is_retried = journal_fails_ && ticks_ % kJournalRetry == 0;
+  if (outputs.record_changed || is_retried) save_record();
   device_->command(outputs.target, outputs.suction, now);
   for (const PickReport& report : outputs.reports) tell(report);
   publish_state(device_->read(now), outputs.busy);

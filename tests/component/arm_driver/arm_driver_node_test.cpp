@@ -300,6 +300,21 @@ TEST_F(ArmDriverNodeTest, ShippedConfigurationIsSound) {
   EXPECT_THROW(ArmDriverNode::check(config), std::runtime_error);
 }
 
+TEST_F(ArmDriverNodeTest, IsReadyAgainOnceItsJournalCanBeWrittenAgain) {
+  const auto in_the_way = folder_.path() / "arm_driver.journal";
+  start_world({0.92, 0.0});
+  start_driver();
+  fixture_.advance(seconds(1));
+  std::filesystem::create_directories(in_the_way / "full");
+  order("p1", "base_link", {0.92, 0.0, 0.0225});
+  ASSERT_TRUE(run_to_result());
+  EXPECT_EQ(fixture_.node_of("arm_driver").health(), runtime::Health::kDegraded);
+  std::filesystem::remove_all(in_the_way);
+  fixture_.advance(seconds(1));
+  EXPECT_EQ(fixture_.node_of("arm_driver").health(), runtime::Health::kReady);
+  EXPECT_TRUE(std::filesystem::is_regular_file(in_the_way));
+}
+
 TEST_F(ArmDriverNodeTest, SpoiltJournalDoesNotStopIt) {
   std::ofstream(folder_.path() / "arm_driver.journal") << "{\"format\": \"coop pi";
   start_world({0.92, 0.0});

@@ -156,6 +156,7 @@ void MissionRun::ask() {
 /// Whether anything tells of the fault: a component of itself, or the launcher of one.
 void MissionRun::notice(Incident& incident, pid_t pid, Wall::time_point begin) {
   namespace State = coop_msgs::msg::ComponentStatus_Constants;
+  ask();
   if (incident.noticed) return;
   for (const std::string& name : names_) {
     const auto status = observer_.components().status(name);
@@ -164,7 +165,6 @@ void MissionRun::notice(Incident& incident, pid_t pid, Wall::time_point begin) {
     incident.seen = name + ": " + status->detail;
     return;
   }
-  ask();
   if (!view_ || asked_ < begin) return;
   for (const auto& row : view_->rows) {
     const bool is_other = row.name == incident.fault.component && row.pid != pid;
