@@ -18,7 +18,11 @@ namespace coop {
 ///
 /// Where a cell and its eight neighbours all cost the same, only the steps are tried that no path
 /// around the cell makes as cheaply (the neighbour pruning of Harabor and Grastien 2011, for grids
-/// without cut corners, applied locally): most of free ground needs one test a cell.
+/// without cut corners, applied locally). A straight step into such a cell leads on straight and
+/// nowhere else, so up to eight of them are made at once, without the open list; what that
+/// costs a cell too much is put right when a cheaper path comes. A cell reached within the bucket
+/// that is being emptied is expanded next, without the open list as well. Elsewhere the three
+/// steps that turn back are left out: the cell before makes them more cheaply.
 class AStar final : public GridPlanner {
  public:
   [[nodiscard]] Result<GridPath, SearchFailure> plan(const TraversalGrid& grid, Cell start,
@@ -27,11 +31,15 @@ class AStar final : public GridPlanner {
   [[nodiscard]] std::size_t expansions() const { return expansions_; }
 
  private:
+  static constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
+
   void prepare(const TraversalGrid& grid);
   void search(const std::array<float, 256>& factors, Cell start, Cell goal);
-  void expand(const std::array<float, 256>& factors, std::uint32_t index, std::uint32_t arrival);
-  void relax(std::uint32_t neighbour, float cost, Cell at, std::uint32_t step);
-  [[nodiscard]] std::uint32_t slot_of(float cost, Cell at) const;
+  void empty_bucket(const std::array<float, 256>& factors);
+  void expand(const std::array<float, 256>& factors, std::uint32_t index);
+  void reach_along(float factor, std::uint32_t index, float cost, std::uint32_t step);
+  void reach(std::uint32_t index, float cost, std::uint32_t step);
+  [[nodiscard]] std::uint32_t slot_of(float estimate) const;
   [[nodiscard]] GridPath path(const TraversalGrid& grid, Cell start, Cell goal) const;
 
   search::Tiles tiles_;
@@ -44,6 +52,8 @@ class AStar final : public GridPlanner {
   std::size_t waiting_ = 0;
   std::size_t expansions_ = 0;
   Cell goal_;
+  std::uint32_t last_ = 0;         ///< the goal's index
+  std::uint32_t next_ = kNowhere;  ///< reached within the bucket being emptied, not in it
 };
 
 }  // namespace coop

@@ -19,6 +19,12 @@ bool Tiles::update(const TraversalGrid& grid) {
       std::copy_n(from + x, std::min(kSide, width - x), to);
     }
   }
+  first_cells_.clear();
+  for (std::uint32_t tile = 0; tile < cells_.size() / kTile; ++tile) {
+    const std::uint32_t tiles_in_row = row_of_tiles_ / kTile;
+    first_cells_.push_back({static_cast<int>(tile % tiles_in_row * kSide) - 1,
+                            static_cast<int>(tile / tiles_in_row * kSide) - 1});
+  }
   return true;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -31,10 +34,9 @@ class Tiles {
     return (y / kSide) * row_of_tiles_ + (x / kSide) * kTile + (y % kSide) * kSide + x % kSide;
   }
   [[nodiscard]] Cell cell_at(std::uint32_t index) const {
-    const std::uint32_t row = index / row_of_tiles_;
-    const std::uint32_t tile = (index - row * row_of_tiles_) / kTile;
-    return {static_cast<int>(tile * kSide + index % kSide) - 1,
-            static_cast<int>(row * kSide + index % kTile / kSide) - 1};
+    const Cell& first = first_cells_[index / kTile];
+    return {first.x + static_cast<int>(index % kSide),
+            first.y + static_cast<int>(index % kTile / kSide)};
   }
 
   /// What to add to a cell's index (modulo 2^32) to get to the next one in each direction; a
@@ -52,8 +54,45 @@ class Tiles {
             row == kLastRow ? to_row : kSide, row == 0 ? 0U - to_row : 0U - kSide};
   }
 
+  /// The same for all eight neighbours, anticlockwise from east. Precondition as above.
+  using Ring = std::array<std::uint32_t, 8>;
+  [[nodiscard]] Ring ring(std::uint32_t index) const {
+    const Around to = around(index);
+    return {to.east, to.north + to.east, to.north, to.north + to.west,
+            to.west, to.south + to.west, to.south, to.south + to.east};
+  }
+  /// That of the cells whose neighbours lie in the same tile, which most do.
+  static constexpr Ring kInnerRing{1U,      kSide + 1U,      kSide,      kSide - 1U,
+                                   0U - 1U, 0U - kSide - 1U, 0U - kSide, 0U - kSide + 1U};
+  [[nodiscard]] static bool has_inner_ring(std::uint32_t index) {
+    return index % kSide - 1U < kSide - 2U && index / kSide % kSide - 1U < kSide - 2U;
+  }
+
+  /// Whether a cell and its eight neighbours all cost the same.
+  [[nodiscard]] bool alike(std::uint32_t index, const Ring& ring) const {
+    std::uint32_t different = 0;
+    for (const std::uint32_t to : ring) different |= cells_[index + to] ^ cells_[index];
+    return different == 0;
+  }
+  /// The same for a cell with the inner ring, three cells at a time.
+  [[nodiscard]] bool alike_inside(std::uint32_t index) const {
+    using Four = std::array<Cost, 4>;
+    const auto row = [&](std::uint32_t middle) {
+      Four four;
+      std::memcpy(four.data(), &cells_[middle - 1U], 4);
+      return std::bit_cast<std::uint32_t>(four);
+    };
+    const Cost own = cells_[index];
+    const auto alike = std::bit_cast<std::uint32_t>(Four{own, own, own, 0});
+    constexpr auto kThree = std::bit_cast<std::uint32_t>(Four{255, 255, 255, 0});
+    const std::uint32_t different =
+        (row(index) ^ alike) | (row(index + kSide) ^ alike) | (row(index - kSide) ^ alike);
+    return (different & kThree) == 0;
+  }
+
  private:
   std::vector<Cost> cells_;
+  std::vector<Cell> first_cells_;       ///< of each tile
   std::uint32_t row_of_tiles_ = kTile;  ///< cells in a row of tiles
   std::uint64_t revision_ = 0;
 };
