@@ -32,6 +32,14 @@ inline TraversalGrid make_grid(const Grid<Cost>& costs, const TraversalConfig& c
   return grid;
 }
 
+/// A wall from below that ends one row before the top.
+inline TraversalGrid grid_with_a_wall() {
+  return make_grid(draw({".......",  //
+                         "...#...",  //
+                         "...#...",  //
+                         "...#..."}));
+}
+
 /// Cells blocked with the given chance, the rest free, or of random cost where `weighted`.
 inline Grid<Cost> random_costs(RandomStream& random, int width, int height, double blocked,
                                bool weighted) {

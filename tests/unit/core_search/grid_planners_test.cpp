@@ -90,10 +90,7 @@ TYPED_TEST(GridPlanners, NoticeThatAGridHasChanged) {
 
 TYPED_TEST(OctilePlanners, GoRoundAWallByTheShortestWay) {
   // Over the top: up past the wall's end with two diagonals, and down again.
-  const TraversalGrid grid = make_grid(draw({".......",  //
-                                             "...#...",  //
-                                             "...#...",  //
-                                             "...#..."}));
+  const TraversalGrid grid = test::grid_with_a_wall();
   const auto path = TypeParam().plan(grid, {1, 0}, {5, 0});
   ASSERT_TRUE(path);
   // (1,0) (2,1) (2,2) (2,3) (3,3) (4,3) (4,2) (4,1) (5,0)
@@ -139,11 +136,13 @@ TEST(AStar, EqualsDijkstraOnRandomWeightedGrids) {
   for (int trial = 0; trial < 300; ++trial) {
     const int width = 1 + static_cast<int>(random.below(80));
     const int height = 1 + static_cast<int>(random.below(80));
-    Grid<Cost> costs = test::random_costs(random, width, height, 0.15, trial % 3 != 0);
-    if (trial % 3 == 1) {  // patches of equal cost, so that pruning and weights meet
+    Grid<Cost> costs =
+        test::random_costs(random, width, height, trial % 3 == 2 ? 0.02 : 0.15, true);
+    if (trial % 3 != 0) {  // patches of equal cost, so that pruning, runs and weights meet
+      const int side = trial % 3 == 1 ? 8 : 25;
       for (std::size_t i = 0; i < costs.cells.size(); ++i) {
         const Cell cell = costs.geometry.cell_at(i);
-        const Cost patch = costs[{cell.x / 8 * 8, cell.y / 8 * 8}];
+        const Cost patch = costs[{cell.x / side * side, cell.y / side * side}];
         if (costs.cells[i] <= kMaxRestrictedCost && patch <= kMaxRestrictedCost) {
           costs.cells[i] = patch;
         }

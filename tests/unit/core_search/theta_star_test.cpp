@@ -80,10 +80,7 @@ TEST(ThetaStar, GoesStraightWhereItSeesTheGoal) {
 }
 
 TEST(ThetaStar, TurnsAtTheCornersOfAWall) {
-  const TraversalGrid grid = make_grid(draw({".......",  //
-                                             "...#...",  //
-                                             "...#...",  //
-                                             "...#..."}));
+  const TraversalGrid grid = test::grid_with_a_wall();
   const auto path = ThetaStar().plan(grid, {0, 0}, {6, 0});
   ASSERT_TRUE(path);
   // Beside the wall's end on either side: (2, 3) and (4, 3).

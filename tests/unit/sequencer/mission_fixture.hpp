@@ -45,6 +45,18 @@ class MissionTest : public ::testing::Test {
     step_until_phase(MissionPhase::kDriving);
     step();
   }
+  /// From the goal set to the order of its pick.
+  void arrive_and_pick() {
+    arrive();
+    step_until_phase(MissionPhase::kPicking);
+    step();
+  }
+  /// From the order of the eggs to the order of a pick.
+  void drive_and_pick() {
+    step_until_phase(MissionPhase::kDriving);
+    step();
+    arrive_and_pick();
+  }
   /// From the goal: the robot stands there, or so far behind it.
   void stand_before_goal(double metres) {
     robot_ = goals_.back().pose_in_map * Pose2{-metres, 0, 0};

@@ -248,10 +248,7 @@ TEST_F(MissionOrdersTest, AnAnswerThatComesLateCountsAllTheSame) {
 
 TEST_F(MissionOrdersTest, SidesRefusedBeforeAPauseDoNotCountForTheDriveAfterIt) {
   begin(1);
-  mission_.start(MissionKind::kCollect, "m", {});
-  add_egg("egg1", 3, 0);
-  step_until_phase(MissionPhase::kDriving);
-  step();
+  approach_an_egg();
   refuse("chance");
   step();
   mission_.pause();
@@ -264,13 +261,8 @@ TEST_F(MissionOrdersTest, SidesRefusedBeforeAPauseDoNotCountForTheDriveAfterIt) 
 
 TEST_F(MissionOrdersTest, ALongPauseIsNotTheArmsFault) {
   begin(1);
-  mission_.start(MissionKind::kCollect, "m", {});
-  add_egg("egg1", 3, 0);
-  step_until_phase(MissionPhase::kDriving);
-  step();
-  arrive();
-  step_until_phase(MissionPhase::kPicking);
-  step();
+  approach_an_egg();
+  arrive_and_pick();
   mission_.pause();
   step(60.0);
   mission_.resume();

@@ -63,11 +63,7 @@ TEST_F(MissionTest, TwoEggsAreSearchedOrderedDrivenToAndPicked) {
   step_until_phase(MissionPhase::kDriving);
   EXPECT_EQ(mission_.state().current_egg, "egg1");
   for (const char* egg : {"egg1", "egg2"}) {
-    step_until_phase(MissionPhase::kDriving);
-    step();
-    arrive();
-    step_until_phase(MissionPhase::kPicking);
-    step();
+    drive_and_pick();
     ASSERT_EQ(picks_.back().egg_id, egg);
     answer_pick(true);
     step();
@@ -103,10 +99,7 @@ TEST_F(MissionTest, AnAnswerToAnotherGoalIsNotAnAnswer) {
 }
 
 TEST_F(MissionTest, AnEggThatCannotBeReachedIsTriedFromAnotherSideAndThenReported) {
-  mission_.start(MissionKind::kCollect, "m", {});
-  add_egg("egg1", 3, 0);
-  step_until_phase(MissionPhase::kDriving);
-  step();
+  approach_an_egg();
   const double first = goals_.back().pose_in_map.yaw;
   fail_to_arrive("no path");
   step_until_phase(MissionPhase::kOrdering);
@@ -141,10 +134,7 @@ TEST_F(MissionTest, SidesThatAreRefusedBeforeTheRobotMovesUseUpNoAttempt) {
 }
 
 TEST_F(MissionTest, AnEggOutOfReachOnArrivalIsApproachedAgain) {
-  mission_.start(MissionKind::kCollect, "m", {});
-  add_egg("egg1", 3, 0);
-  step_until_phase(MissionPhase::kDriving);
-  step();
+  approach_an_egg();
   arrive();
   robot_ = Pose2{2.3, 0, 0};  // the egg lies 0.70 m ahead
   for (int i = 0; i < 10 && mission_.state().eggs[0].reason.empty(); ++i) step();
@@ -153,13 +143,8 @@ TEST_F(MissionTest, AnEggOutOfReachOnArrivalIsApproachedAgain) {
 }
 
 TEST_F(MissionTest, APickIsToldAgainUnderItsIdWhileTheArmIsSilentOrBusy) {
-  mission_.start(MissionKind::kCollect, "m", {});
-  add_egg("egg1", 3, 0);
-  step_until_phase(MissionPhase::kDriving);
-  step();
-  arrive();
-  step_until_phase(MissionPhase::kPicking);
-  step();
+  approach_an_egg();
+  arrive_and_pick();
   pick_ = PickReport{mission_.state().pick_id, false, false, "busy"};
   for (int i = 0; i < 100; ++i) step();
   ASSERT_GE(picks_.size(), 3U);
@@ -174,11 +159,7 @@ TEST_F(MissionTest, AnEggSeenOnTheWayIsCollectedToo) {
   step_until_phase(MissionPhase::kDriving);
   add_egg("egg2", 6, 0);
   for (int i = 0; i < 2; ++i) {
-    step_until_phase(MissionPhase::kDriving);
-    step();
-    arrive();
-    step_until_phase(MissionPhase::kPicking);
-    step();
+    drive_and_pick();
     answer_pick(true);
     step();
   }
