@@ -134,6 +134,16 @@ void LocalMapConfig::describe(config::Fields& fields) {
   fields.section("obstacles", obstacles);
 }
 
+void AnimalCheckConfig::describe(config::Fields& fields) {
+  fields.flag("use", use, {.help = "whether a camera above tells where animals are"});
+  fields.number("horizon", horizon,
+                {.unit = "s",
+                 .help = "trajectories are checked against walking animals so far ahead",
+                 .min = 0,
+                 .max = 10});
+  AnimalTracksConfig::describe(fields);
+}
+
 void DwaConfig::describe(config::Fields& fields) {
   static constexpr std::array<std::string_view, 2> kModes{"aligned", "paper"};
   fields.choice("mode", mode, kModes,
@@ -152,6 +162,7 @@ void DwaConfig::describe(config::Fields& fields) {
   fields.section("arrival", arrival);
   fields.section("recovery", recovery);
   fields.section("local_map", local_map);
+  fields.section("animals", animals);
 }
 
 }  // namespace coop::dwa

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "core/config/fields.hpp"
+#include "core/costmap/animal_tracks.hpp"
 #include "core/costmap/costmap.hpp"
 #include "core/costmap/obstacle_layer.hpp"
 
@@ -90,6 +91,14 @@ struct LocalMapConfig {
   void describe(config::Fields& fields);
 };
 
+/// Animals told by a camera above; see AnimalCheck.
+struct AnimalCheckConfig : AnimalTracksConfig {
+  bool use = false;      ///< whether there is a topic `animals` to listen to
+  double horizon = 1.0;  ///< s: trajectories are checked so far ahead
+
+  void describe(config::Fields& fields);
+};
+
 struct DwaConfig {
   /// aligned: the paper's terms and the error along the plan, forwards and backwards. paper:
   /// equations (5) to (10) alone.
@@ -102,6 +111,7 @@ struct DwaConfig {
   ArrivalConfig arrival;
   RecoveryConfig recovery;
   LocalMapConfig local_map;
+  AnimalCheckConfig animals;
 
   void describe(config::Fields& fields);
   [[nodiscard]] bool paper() const { return mode == "paper"; }

@@ -29,7 +29,9 @@ Dwa::Dwa(const DwaConfig& config, const std::vector<Eigen::Vector2d>& footprint,
       steering_rate_(steering_rate),
       chooser_(config, footprint, base, steering_rate),
       local_map_(config.local_map, Footprint(footprint),
-                 std::max(chooser_.reach(), config.critic.max_obstacle_distance)) {}
+                 std::max(chooser_.reach(), config.critic.max_obstacle_distance)),
+      animals_(config.animals, Footprint(footprint, config.prediction.padding),
+               config.prediction.prediction_step) {}
 
 void Dwa::set_plan(const std::string& goal_id, std::vector<Pose2> poses_in_map) {
   const bool same_goal = goal_id == goal_id_;
@@ -58,6 +60,7 @@ DwaOutput Dwa::update(const DwaInputs& inputs, Time now) {
   }
   const Here here = locate(inputs, now);
   local_map_.update(here.base_in_odom, here.odom_in_map, now);
+  animals_.place(here.base_in_odom, here.odom_in_map, now);
   track_.record(here.base_in_odom);
   if (has_new_plan_) {
     has_new_plan_ = false;
@@ -312,6 +315,7 @@ std::optional<Command> Dwa::steer(const Here& here, const TrackedPath& path,
   situation.target = (path_in_odom * path.pose_ahead(target_distance)).position();
   situation.path = window_;
   situation.obstacles = &local_map_.costmap().distances();
+  situation.animals = &animals_;
   const Candidate* best = chooser_.choose(situation);
   if (best == nullptr) return std::nullopt;
   chosen_ = best->trajectory;

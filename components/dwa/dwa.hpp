@@ -10,6 +10,7 @@
 #include "core/pose.hpp"
 #include "core/scan.hpp"
 #include "core/time.hpp"
+#include "dwa/animal_check.hpp"
 #include "dwa/config.hpp"
 #include "dwa/driven_track.hpp"
 #include "dwa/local_map.hpp"
@@ -59,6 +60,7 @@ class Dwa {
   [[nodiscard]] const std::string& goal_id() const { return goal_id_; }
 
   [[nodiscard]] LocalMap& local_map() { return local_map_; }
+  [[nodiscard]] AnimalCheck& animals() { return animals_; }
 
   /// One control step at `now`, every control_period.
   DwaOutput update(const DwaInputs& inputs, Time now);
@@ -105,6 +107,7 @@ class Dwa {
   double steering_rate_;
   TrajectoryChooser chooser_;
   LocalMap local_map_;
+  AnimalCheck animals_;
   DrivenTrack track_;
 
   Mode mode_ = Mode::kIdle;

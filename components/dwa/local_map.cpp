@@ -1,5 +1,6 @@
 #include "dwa/local_map.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace coop::dwa {
@@ -7,6 +8,8 @@ namespace {
 
 constexpr double kUnderRobot =
     0.01;  ///< m: a spot whose middle is this near to the footprint is under it
+/// With more than this share of the cells changed, measuring all of them anew is no dearer.
+constexpr std::size_t kFewOf = 20;
 
 }  // namespace
 
@@ -20,6 +23,7 @@ LocalMap::LocalMap(const LocalMapConfig& config, const Footprint& footprint, dou
 
 void LocalMap::set_static_map(const OccupancyGrid& map) {
   map_ = map;
+  all_anew_ = true;
 }
 
 void LocalMap::center_on(const Eigen::Vector2d& point) {
@@ -42,13 +46,38 @@ void LocalMap::integrate(const LaserScan& scan, const ObstacleLayer::ScanPose& p
 void LocalMap::update(const Pose2& base_in_odom, const Pose2& odom_in_map, Time now) {
   center_on(base_in_odom.position());
   layer_.expire(now);
-  costmap_.reset(layer_.geometry());
-  const std::span<std::uint8_t> obstacles = costmap_.obstacles();
-  const std::span<const ObstacleLayer::State> states = layer_.states();
-  for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    obstacles[i] = states[i] == ObstacleLayer::State::kMarked ? 1 : 0;
+  layer_.take_changes(looked_at_);
+  if (!(costmap_.geometry() == layer_.geometry())) {
+    costmap_.reset(layer_.geometry());
+    all_anew_ = true;
   }
-  if (config_.use_map && map_.geometry.size() > 0) add_static(obstacles, odom_in_map);
+  if (is_up_to_date(base_in_odom, odom_in_map)) return;
+  compose(base_in_odom, odom_in_map);
+  take_over();
+  base_in_odom_ = base_in_odom;
+  odom_in_map_ = odom_in_map;
+  all_anew_ = false;
+  spots_changed_ = false;
+}
+
+bool LocalMap::is_up_to_date(const Pose2& base_in_odom, const Pose2& odom_in_map) const {
+  // Spots count but for those under the robot.
+  return !all_anew_ && !spots_changed_ && looked_at_.empty() && odom_in_map == odom_in_map_ &&
+         (spots_.empty() || base_in_odom == base_in_odom_);
+}
+
+void LocalMap::compose(const Pose2& base_in_odom, const Pose2& odom_in_map) {
+  const std::span<const ObstacleLayer::State> states = layer_.states();
+  marked_.resize(states.size());
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    marked_[i] = states[i] == ObstacleLayer::State::kMarked ? 1 : 0;
+  }
+  obstacles_ = marked_;
+  if (config_.use_map && map_.geometry.size() > 0) add_static(odom_in_map);
+  add_spots(base_in_odom, odom_in_map);
+}
+
+void LocalMap::add_spots(const Pose2& base_in_odom, const Pose2& odom_in_map) {
   const GridGeometry& grid = layer_.geometry();
   const Pose2 map_in_odom = odom_in_map.inverse();
   for (const Spot& spot : spots_) {
@@ -61,18 +90,48 @@ void LocalMap::update(const Pose2& base_in_odom, const Pose2& odom_in_map, Time 
       for (int x = middle.x - reach; x <= middle.x + reach; ++x) {
         const Cell cell{x, y};
         if (!grid.contains(cell)) continue;
-        if ((grid.center_of(cell) - center).norm() <= spot.radius) obstacles[grid.index(cell)] = 1;
+        if ((grid.center_of(cell) - center).norm() <= spot.radius) obstacles_[grid.index(cell)] = 1;
       }
     }
   }
-  costmap_.update();
 }
 
-void LocalMap::add_static(std::span<std::uint8_t> obstacles, const Pose2& odom_in_map) {
+/// Gives the costmap the obstacles, as runs of changed cells where these are few.
+void LocalMap::take_over() {
+  const GridGeometry& grid = layer_.geometry();
+  const std::span<std::uint8_t> now = costmap_.obstacles();
+  changed_.clear();
+  std::size_t cells = 0;
+  for (int y = 0; y < grid.height; ++y) {
+    const std::size_t row = grid.index({0, y});
+    const auto differs = [&](int x) {
+      return obstacles_[row + static_cast<std::size_t>(x)] !=
+             now[row + static_cast<std::size_t>(x)];
+    };
+    for (int x = 0; x < grid.width; ++x) {
+      if (!differs(x)) continue;
+      const int first = x;
+      while (x < grid.width && differs(x)) ++x;
+      changed_.push_back({{first, y}, {x, y + 1}});
+      cells += static_cast<std::size_t>(x - first);
+    }
+  }
+  std::ranges::copy(obstacles_, now.begin());
+  if (all_anew_ || cells > grid.size() / kFewOf) {
+    costmap_.update();
+  } else {
+    costmap_.update(changed_);
+  }
+}
+
+void LocalMap::add_static(const Pose2& odom_in_map) {
   const GridGeometry& grid = layer_.geometry();
   const std::span<const ObstacleLayer::State> states = layer_.states();
-  marked_.assign(obstacles.begin(), obstacles.end());
-  seen_.update(grid, marked_, config_.static_tolerance + grid.resolution);
+  if (all_anew_) {
+    to_marked_.update(grid, marked_, config_.static_tolerance + grid.resolution);
+  } else {
+    to_marked_.update_within(looked_at_, marked_);
+  }
   const double tolerance = config_.static_tolerance / grid.resolution;
   const double c = std::cos(odom_in_map.yaw) * grid.resolution;
   const double s = std::sin(odom_in_map.yaw) * grid.resolution;
@@ -83,7 +142,7 @@ void LocalMap::add_static(std::span<std::uint8_t> obstacles, const Pose2& odom_i
       if (states[i] != ObstacleLayer::State::kUnseen) continue;
       const Eigen::Vector2d point(first.x() + c * x - s * y, first.y() + s * x + c * y);
       if (map_.at_or(map_.geometry.cell_of(point), kFree) < config_.occupied_from) continue;
-      if (seen_.squared_cells()[i] > tolerance * tolerance) obstacles[i] = 1;
+      if (to_marked_.squared_cells()[i] > tolerance * tolerance) obstacles_[i] = 1;
     }
   }
 }

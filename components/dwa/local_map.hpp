@@ -29,9 +29,13 @@ class LocalMap {
   void integrate(const LaserScan& scan, const ObstacleLayer::ScanPose& pose);
 
   /// Round spots to keep clear of, although the laser does not see them.
-  void set_spots(std::vector<Spot> spots) { spots_ = std::move(spots); }
+  void set_spots(std::vector<Spot> spots) {
+    spots_changed_ = spots_changed_ || spots != spots_;
+    spots_ = std::move(spots);
+  }
 
-  /// Brings costs and distances up to date. `odom_in_map` places static map and spots.
+  /// Brings costs and distances up to date where anything changed. `odom_in_map` places static map
+  /// and spots.
   void update(const Pose2& base_in_odom, const Pose2& odom_in_map, Time now);
 
   [[nodiscard]] const Costmap& costmap() const { return costmap_; }
@@ -39,16 +43,28 @@ class LocalMap {
 
  private:
   void center_on(const Eigen::Vector2d& point);
-  void add_static(std::span<std::uint8_t> obstacles, const Pose2& odom_in_map);
+  [[nodiscard]] bool is_up_to_date(const Pose2& base_in_odom, const Pose2& odom_in_map) const;
+  void compose(const Pose2& base_in_odom, const Pose2& odom_in_map);
+  void add_static(const Pose2& odom_in_map);
+  void add_spots(const Pose2& base_in_odom, const Pose2& odom_in_map);
+  void take_over();
 
   LocalMapConfig config_;
   Footprint footprint_;
   ObstacleLayer layer_;
   Costmap costmap_;
   OccupancyGrid map_;
-  DistanceField seen_;
-  std::vector<std::uint8_t> marked_;
   std::vector<Spot> spots_;
+  std::vector<CellWindow> looked_at_;  ///< where the layer has changed since the last update
+  std::vector<std::uint8_t> marked_;   ///< what the laser has seen
+  DistanceField to_marked_;
+  std::vector<std::uint8_t> obstacles_;  ///< of all layers
+  std::vector<CellWindow> changed_;      ///< of these, since the last update
+  // What the last update was made of.
+  Pose2 base_in_odom_;
+  Pose2 odom_in_map_;
+  bool all_anew_ = true;
+  bool spots_changed_ = false;
 };
 
 }  // namespace coop::dwa

@@ -42,11 +42,7 @@ const Candidate* TrajectoryChooser::choose(const Situation& situation) {
   for (std::size_t i = 0; i < count_; ++i) {
     Candidate& candidate = candidates_[i];
     predict(situation, candidate);
-    candidate.admissible =
-        checker != nullptr && std::none_of(candidate.trajectory.begin(), candidate.trajectory.end(),
-                                           [&](const Pose2& pose) {
-                                             return checker->collides(*situation.obstacles, pose);
-                                           });
+    candidate.admissible = is_free(situation, checker, candidate.trajectory);
     if (!candidate.admissible) continue;
     admissible_.push_back(i);
     evaluations_.push_back(evaluate(situation, candidate));
@@ -60,6 +56,16 @@ const Candidate* TrajectoryChooser::choose(const Situation& situation) {
     if (best == nullptr || candidate.score > best->score) best = &candidate;
   }
   return best;
+}
+
+bool TrajectoryChooser::is_free(const Situation& situation, const CollisionChecker* checker,
+                                const Trajectory& trajectory) {
+  if (checker == nullptr) return false;
+  const auto collides = [&](const Pose2& pose) {
+    return checker->collides(*situation.obstacles, pose);
+  };
+  if (std::ranges::any_of(trajectory, collides)) return false;
+  return situation.animals == nullptr || !situation.animals->collides(trajectory);
 }
 
 void TrajectoryChooser::sample(const Situation& situation) {

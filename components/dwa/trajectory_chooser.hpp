@@ -9,6 +9,7 @@
 #include "core/costmap/distance_field.hpp"
 #include "core/pose.hpp"
 #include "core/vehicle/ackermann.hpp"
+#include "dwa/animal_check.hpp"
 #include "dwa/config.hpp"
 #include "dwa/critic.hpp"
 #include "dwa/dynamic_window.hpp"
@@ -31,6 +32,7 @@ struct Situation {
   std::span<const Pose2>
       path;  ///< where the robot is to be every kPathSpacing of driving, from here on
   const DistanceField* obstacles = nullptr;
+  const AnimalCheck* animals = nullptr;  ///< none: not looked at
 };
 
 struct Candidate {
@@ -71,6 +73,8 @@ class TrajectoryChooser {
  private:
   void sample(const Situation& situation);
   void predict(const Situation& situation, Candidate& candidate) const;
+  [[nodiscard]] static bool is_free(const Situation& situation, const CollisionChecker* checker,
+                                    const Trajectory& trajectory);
   [[nodiscard]] const CollisionChecker* checker_at(const Situation& situation) const;
   [[nodiscard]] Evaluation evaluate(const Situation& situation, const Candidate& candidate) const;
   [[nodiscard]] double path_error(const Situation& situation, const Command& command) const;

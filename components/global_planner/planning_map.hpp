@@ -51,26 +51,35 @@ class PlanningMap {
   void set_spots(std::vector<Spot> spots);
   [[nodiscard]] AnimalLayer& animals() { return animal_layer_; }
 
-  /// Brings costs and distances up to date. Whether anything changed. Spots under the robot, where
-  /// it is known, are left out: it stands there, so nothing is, or it is too late.
+  /// Brings costs and distances up to date where anything changed; whether an obstacle did. Spots
+  /// under the robot, where it is known, are left out: it stands there, so nothing is, or it is too
+  /// late.
   bool update(Time now, const std::optional<Pose2>& robot_in_map = std::nullopt);
 
   [[nodiscard]] const Costmap& costmap() const { return costmap_; }
   [[nodiscard]] const OccupancyGrid& map() const { return map_; }
 
  private:
-  void mark_spot(const Spot& spot, std::span<std::uint8_t> cells) const;
+  void cover_spot(const Spot& spot, std::vector<std::size_t>& cells) const;
+  void cover(Time now, const std::optional<Pose2>& robot_in_map);
+  void compose(std::size_t cell);
 
   PlanningMapConfig config_;
   Footprint footprint_;
   OccupancyGrid map_;
   std::vector<std::uint8_t> static_obstacles_;
   DistanceField static_distances_;
+  double squared_tolerance_ = 0.0;  ///< cells
   ObstacleLayer obstacle_layer_;
   AnimalLayer animal_layer_;
   std::vector<Spot> spots_;
   Costmap costmap_;
-  std::vector<std::uint8_t> marked_;  ///< obstacles now, to tell whether they changed
+  std::vector<std::size_t> covered_;         ///< cells of spots and animals
+  std::vector<std::size_t> covered_before_;  ///< at the last update
+  std::vector<std::uint8_t> is_covered_;     ///< the same as covered_, a cell each
+  std::vector<CellWindow> seen_;             ///< where the laser's layer has changed
+  std::vector<CellWindow> changed_;          ///< since costs and distances were brought up to date
+  bool obstacles_changed_ = false;
   bool map_changed_ = false;
 };
 

@@ -18,7 +18,7 @@ constexpr std::string_view kMaster = "master of time";
 constexpr auto kTopics = std::to_array<TopicInfo>({
     {"amcl_pose", "geometry_msgs/PoseWithCovarianceStamped", kLatched, 0, "amcl", "person",
      "pose in map with covariance, at every update of the filter"},
-    {"animals", "vision_msgs/Detection3DArray", kEvent, 5, "camera_driver", "global_planner",
+    {"animals", "vision_msgs/Detection3DArray", kEvent, 5, "camera_driver", "dwa, global_planner",
      "animals that an overhead camera found in one picture, in map; an empty list says none"},
     {"camera/camera_info", "sensor_msgs/CameraInfo", kStream, 5, "camera_driver",
      "sequencer, person", "calibration of the picture of the same stamp"},

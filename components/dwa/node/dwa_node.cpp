@@ -1,5 +1,6 @@
 #include "dwa/node/dwa_node.hpp"
 
+#include "conversions/detections.hpp"
 #include "conversions/geometry.hpp"
 #include "conversions/mission.hpp"
 #include "conversions/navigation.hpp"
@@ -115,6 +116,23 @@ void DwaNode::subscribe() {
       "mission_status", Qos::kStateLatched, [this](const coop_msgs::msg::MissionStatus& message) {
         dwa_.local_map().set_spots(conversions::uncollected_eggs(message, config_.egg_radius));
       });
+  if (!config_.dwa.animals.use) return;
+  node_.subscribe<vision_msgs::msg::Detection3DArray>(
+      "animals", Qos::kEvent,
+      [this](const vision_msgs::msg::Detection3DArray& message) { receive_animals(message); },
+      runtime::Attention::kPatient);
+}
+
+void DwaNode::receive_animals(const vision_msgs::msg::Detection3DArray& message) {
+  const auto animals = conversions::from_msg(message);
+  if (!animals || animals->frame_id != "map") {
+    node_.log().warning("animals refused: {}",
+                        animals ? "their frame is not map" : animals.error());
+    return;
+  }
+  if (!dwa_.animals().see(animals->value, animals->stamp)) {
+    node_.log().warning("animals refused: {} of them", animals->value.size());
+  }
 }
 
 void DwaNode::receive_plan(const nav_msgs::msg::Path& message) {

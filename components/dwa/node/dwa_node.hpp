@@ -11,6 +11,7 @@
 #include "nav_msgs/msg/Path.h"
 #include "runtime/node.hpp"
 #include "runtime/stamped_queue.hpp"
+#include "vision_msgs/msg/Detection3DArray.h"
 
 namespace coop::dwa {
 
@@ -36,6 +37,7 @@ class DwaNode {
   DwaNode(runtime::Node& node, const Config& config, const robot::RobotModel& robot);
   void subscribe();
   void receive_plan(const nav_msgs::msg::Path& message);
+  void receive_animals(const vision_msgs::msg::Detection3DArray& message);
   void integrate_scans();
   void step();
   void publish_status(const DwaOutput& output);

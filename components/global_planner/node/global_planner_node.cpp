@@ -151,7 +151,9 @@ void GlobalPlannerNode::receive_animals(const vision_msgs::msg::Detection3DArray
         animals ? "their frame is '" + animals->frame_id + "', not map" : animals.error());
     return;
   }
-  planner_.map().animals().see(animals->value, animals->stamp);
+  if (!planner_.map().animals().see(animals->value, animals->stamp)) {
+    node_.log().warning("animals refused: {} of them", animals->value.size());
+  }
 }
 
 void GlobalPlannerNode::receive_driver(const NavigationStatus& message) {

@@ -1,5 +1,6 @@
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "core/world/ray_caster.hpp"
@@ -74,6 +75,33 @@ void BM_IntegrateScan(benchmark::State& state) {
   }
 }
 BENCHMARK(BM_IntegrateScan)->Unit(benchmark::kMillisecond);
+
+/// 0: nothing new (every second control step); 1: a scan, in which a box comes and goes; 2: the
+/// robot's place in the map was put right.
+void BM_LocalMapUpdate(benchmark::State& state) {
+  Scene scene;
+  LocalMap map({.obstacles = {.hold_time = 0.0}}, Footprint(scene.robot.footprint), 1.5);
+  map.set_static_map(scene.house);
+  LaserScan scan = scene.scan();
+  const std::vector<float> ranges = scan.ranges;
+  Pose2 odom_in_map;
+  int count = 0;
+  const auto integrate = [&] {
+    scan.stamp += std::chrono::milliseconds(100);
+    scan.ranges = ranges;
+    if (++count % 2 == 0) std::fill_n(scan.ranges.begin() + 40, 10, 0.6F);
+    map.integrate(scan, {scene.pose, scene.pose, {scene.robot.laser_x, 0, 0}});
+  };
+  integrate();
+  map.update(scene.pose, odom_in_map, scan.stamp);
+  for (auto _ : state) {
+    if (state.range(0) == 1) integrate();
+    if (state.range(0) == 2) odom_in_map.x = ++count % 2 == 0 ? 0.01 : 0.0;
+    map.update(scene.pose, odom_in_map, scan.stamp);
+    benchmark::DoNotOptimize(map.costmap().costs().cells.data());
+  }
+}
+BENCHMARK(BM_LocalMapUpdate)->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace coop::dwa

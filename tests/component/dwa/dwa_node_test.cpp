@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "conversions/detections.hpp"
 #include "conversions/geometry.hpp"
 #include "conversions/navigation.hpp"
 #include "conversions/sensors.hpp"
@@ -25,7 +26,7 @@ namespace Constants = coop_msgs::msg::NavigationStatus_Constants;
 /// The shell with a base that does what cmd_vel says; odometry at 50 Hz, scans at 10 Hz.
 class DwaNodeTest : public testing::Test {
  protected:
-  DwaNodeTest() {
+  explicit DwaNodeTest(const DwaNodeConfig& config = {}) {
     runtime::Node& tester = fixture_.tester();
     odometry_ = tester.advertise<nav_msgs::msg::Odometry>("odom", Qos::kSensorStream);
     scans_ = tester.advertise<sensor_msgs::msg::LaserScan>("scan", Qos::kSensorStream);
@@ -34,7 +35,7 @@ class DwaNodeTest : public testing::Test {
     commands_ = fixture_.collect<TwistStamped>("cmd_vel", Qos::kCommand);
     statuses_ = fixture_.collect<NavigationStatus>("navigation_status", Qos::kStateLatched);
     tester.publish_static_transform("base_link", "laser_link", to_pose3(Pose2{0.62, 0.0, 0.0}));
-    fixture_.add<DwaNode>("dwa", {});
+    fixture_.add<DwaNode>("dwa", config);
   }
 
   void run(double duration, bool with_scans = true) {
@@ -185,6 +186,55 @@ TEST(DwaNodeCheck, RefusesARobotThatIsNotThere) {
   DwaNodeConfig config;
   config.robot = "no/such.urdf";
   EXPECT_ANY_THROW(DwaNode::check(config));
+}
+
+DwaNodeConfig with_animals() {
+  DwaNodeConfig config;
+  config.dwa.animals.use = true;
+  return config;
+}
+
+class DwaNodeInAPenTest : public DwaNodeTest {
+ protected:
+  DwaNodeInAPenTest() : DwaNodeTest(with_animals()) {
+    animals_ =
+        fixture_.tester().advertise<vision_msgs::msg::Detection3DArray>("animals", Qos::kEvent);
+  }
+  void see_pig(const std::string& frame, const Eigen::Vector2d& at) {
+    Detection pig;
+    pig.class_id = "pig";
+    pig.position = {at.x(), at.y(), 0.2};
+    pig.size = {0.4, 0.4, 0.4};
+    animals_.publish(
+        conversions::to_msg(Stamped<std::vector<Detection>>{fixture_.now(), frame, {pig}}));
+  }
+  void run_with_pig(double duration, const std::string& frame) {
+    for (int i = 0; i < static_cast<int>(std::lround(duration / 0.1)); ++i) {
+      see_pig(frame, {2.0, 0.0});
+      run(0.1);
+    }
+  }
+  runtime::Publisher<vision_msgs::msg::Detection3DArray> animals_;
+};
+
+TEST_F(DwaNodeInAPenTest, WaitsForAnAnimalThatTheLaserDoesNotSee) {
+  run(0.5);
+  send_plan(3.0);
+  run_with_pig(8.0, "map");
+  EXPECT_EQ(speed(), 0.0);
+  EXPECT_GT(robot_.x, 0.2);
+  EXPECT_LT(robot_.x + 0.77, 1.8);  // its nose before the pig's edge
+  EXPECT_EQ(statuses_->back().state(), Constants::DRIVING);
+  const double stood_at = robot_.x;
+  run(3.0);  // it is gone
+  EXPECT_NE(robot_.x, stood_at);
+}
+
+TEST_F(DwaNodeInAPenTest, AnimalsInAnotherFrameAreRefused) {
+  run(0.5);
+  send_plan(3.0);
+  run_with_pig(8.0, "odom");
+  EXPECT_GT(robot_.x, 1.5);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "conversions/detections.hpp"
 #include "conversions/geometry.hpp"
 #include "conversions/navigation.hpp"
@@ -124,6 +126,75 @@ TEST_F(GlobalPlannerNodeTest, TellsThatTheGoalIsOutside) {
   send_goal({50.0, 2.5, 0.0});
   stand(kStart, 3);
   EXPECT_EQ(last_status().reason(), Constants::GOAL_OUTSIDE);
+}
+
+TEST_F(GlobalPlannerNodeTest, AGoalThatIsNotANumberIsRefusedAndThePlanInForceStands) {
+  publish_map();
+  stand(kStart, 3);
+  const std::string id = send_goal(kGoal);
+  stand(kStart, 3);
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  for (const Pose2& goal :
+       {Pose2{kNaN, 2.5, 0.0}, Pose2{4.0, kInfinite, 0.0}, Pose2{4.0, 2.5, kNaN}}) {
+    send_goal(goal);
+    stand(kStart, 3);
+  }
+  EXPECT_EQ(plans_->size(), 1U);
+  EXPECT_EQ(last_status().state(), Constants::DRIVING);
+  EXPECT_EQ(last_status().goal_id(), id);
+  EXPECT_EQ(health(), Health::kReady);
+}
+
+TEST_F(GlobalPlannerNodeTest, MalformedMapsAreRefusedAndTheOneBeforeStands) {
+  OccupancyGrid good =
+      conversions::to_msg(Stamped<coop::OccupancyGrid>{fixture_.now(), "map", test::draw_room()});
+  OccupancyGrid empty = good;
+  empty.info().width(0);
+  empty.data().clear();
+  OccupancyGrid shorter = good;
+  shorter.data().resize(good.data().size() / 2);
+  OccupancyGrid flat = good;
+  flat.info().resolution(0.0F);
+  OccupancyGrid nowhere = good;
+  nowhere.info().origin().position().x(std::numeric_limits<double>::quiet_NaN());
+  OccupancyGrid absurd = good;
+  absurd.info().width(4'000'000'000U);
+  absurd.info().height(4'000'000'000U);
+  const std::vector<OccupancyGrid> malformed{empty, shorter, flat, nowhere, absurd};
+  for (const OccupancyGrid& map : malformed) {
+    maps_.publish(map);
+    stand(kStart, 2);
+    EXPECT_EQ(health(), Health::kDegraded) << "a malformed map was taken";
+  }
+  maps_.publish(good);
+  stand(kStart, 3);
+  for (const OccupancyGrid& map : malformed) {
+    maps_.publish(map);
+    stand(kStart, 2);
+  }
+  send_goal(kGoal);
+  stand(kStart, 3);
+  EXPECT_EQ(last_status().state(), Constants::DRIVING);
+}
+
+TEST_F(GlobalPlannerNodeTest, MoreAnimalsThanAnyPenHoldsAreRefused) {
+  publish_map();
+  auto animals =
+      fixture_.tester().advertise<vision_msgs::msg::Detection3DArray>("animals", Qos::kEvent);
+  Detection pig;
+  pig.class_id = "pig";
+  pig.position = {2.5, 2.5, 0.2};
+  pig.size = {0.4, 0.4, 0.4};
+  animals.publish(conversions::to_msg(
+      Stamped<std::vector<Detection>>{fixture_.now(), "map", std::vector<Detection>(10'000, pig)}));
+  stand(kStart, 3);
+  send_goal(kGoal);
+  stand(kStart, 3);
+  EXPECT_EQ(last_status().state(), Constants::DRIVING);
+  const auto plan = conversions::from_msg(plans_->back());
+  ASSERT_TRUE(plan);
+  for (const Pose2& pose : plan->value) EXPECT_NEAR(pose.y, 2.5, 0.2) << "there is no pig";
 }
 
 TEST_F(GlobalPlannerNodeTest, AGoalWithoutAFrameTakesTheGoalOfItsStampBack) {

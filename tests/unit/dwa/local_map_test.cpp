@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "core/random.hpp"
 #include "unit/dwa/test_base.hpp"
 
 namespace coop::dwa {
@@ -96,6 +99,38 @@ TEST(LocalMap, KeepsClearOfSpotsButNotOfThoseUnderTheRobot) {
   map.update({0, 0, 0}, {}, kNow);
   EXPECT_TRUE(blocked(map, 1.5, 0.0));
   EXPECT_FALSE(blocked(map, 0.3, 0.0));
+}
+
+/// A robot drives about between boxes that come and go; its place in the map is put right now and
+/// then, spots come and go.
+TEST(LocalMap, UpdatedWhereItChangedItIsTheSameAsMadeAnew) {
+  LocalMap map = make_map({.size = 4.0, .resolution = 0.05});
+  map.set_static_map(walls());
+  RandomStream random(3, "local_map_test");
+  Pose2 base;
+  Pose2 odom_in_map;
+  for (int step = 0; step < 120; ++step) {
+    const Time now = kNow + std::chrono::milliseconds(50 * step);
+    base = base * Pose2{random.uniform(-0.05, 0.1), 0.0, random.uniform(-0.2, 0.2)};
+    if (step % 2 == 0) {
+      LaserScan scan = beam(0.0);
+      scan.stamp = now;
+      scan.angle_increment = 0.1F;
+      scan.ranges.clear();
+      for (int i = 0; i < 62; ++i)
+        scan.ranges.push_back(random.uniform(0.8, 1.6) < 1.0 ? 1.0F : 2.5F);
+      map.integrate(scan, {base, base, {0.62, 0, 0}});
+    }
+    if (random.below(8) == 0) odom_in_map.x += random.uniform(-0.05, 0.05);
+    if (random.below(10) == 0) map.set_spots({{{random.uniform(-1.0, 1.0), 1.0}, 0.1}});
+    LocalMap anew = map;
+    anew.set_static_map(walls());
+    anew.update(base, odom_in_map, now);
+    map.update(base, odom_in_map, now);
+    ASSERT_EQ(map.costmap().costs(), anew.costmap().costs()) << "step " << step;
+    ASSERT_TRUE(std::ranges::equal(map.costmap().distances().squared_cells(),
+                                   anew.costmap().distances().squared_cells()));
+  }
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "unit/global_planner/drawn_map.hpp"
 
 namespace coop::global_planner {
@@ -20,7 +22,7 @@ Detection pig(double x, double y, double diameter = 0.4) {
 class AnimalLayerTest : public ::testing::Test {
  protected:
   void see(double seconds, const std::vector<Detection>& animals) {
-    layer_.see(animals, time_from_seconds(seconds));
+    EXPECT_TRUE(layer_.see(animals, time_from_seconds(seconds)));
   }
   /// A pig walks along x at 0.5 m/s for two seconds and is at (2, 1) then, seen five times a
   /// second.
@@ -28,9 +30,9 @@ class AnimalLayerTest : public ::testing::Test {
     for (int i = 0; i <= 10; ++i) see(0.2 * i, {pig(1.0 + 0.1 * i, 1.0)});
   }
   bool covers(double x, double y, double now, const std::optional<Pose2>& robot = std::nullopt) {
-    std::vector<std::uint8_t> cells(grid_.size(), 0);
-    layer_.mark(grid_, time_from_seconds(now), robot, Footprint(kRobotFootprint), cells);
-    return cells[grid_.index(grid_.cell_of({x, y}))] != 0;
+    std::vector<std::size_t> cells;
+    layer_.cover(grid_, time_from_seconds(now), robot, Footprint(kRobotFootprint), cells);
+    return std::ranges::find(cells, grid_.index(grid_.cell_of({x, y}))) != cells.end();
   }
   AnimalLayer layer_{AnimalLayerConfig{}};
   GridGeometry grid_{.width = 80, .height = 40, .resolution = 0.05, .origin = {0.0, 0.0}};

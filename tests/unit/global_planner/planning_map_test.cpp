@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "core/random.hpp"
 #include "unit/global_planner/drawn_map.hpp"
 
 namespace coop::global_planner {
@@ -113,11 +116,45 @@ TEST(PlanningMap, AnAnimalIsAnObstacleForAsLongAsItIsSeen) {
   Detection pig;
   pig.position = {3.0, 2.5, 0.2};
   pig.size = {0.4, 0.4, 0.4};
-  map.animals().see({pig}, time_from_seconds(1.0));
+  EXPECT_TRUE(map.animals().see({pig}, time_from_seconds(1.0)));
   EXPECT_TRUE(map.update(time_from_seconds(1.0)));
   EXPECT_EQ(cost_at(map, 3.0, 2.5), kLethalCost);
   EXPECT_TRUE(map.update(time_from_seconds(3.0)));
   EXPECT_EQ(cost_at(map, 3.0, 2.5), kFreeCost);
+}
+
+/// Scans, animals that walk, spots that come and go, and a robot that drives over some.
+TEST(PlanningMap, UpdatedWhereItChangedItIsTheSameAsMadeAnew) {
+  OccupancyGrid room = draw_room();
+  for (int y = 40; y < 60; ++y) {
+    for (int x = 40; x < 60; ++x) room[{x, y}] = kUnknown;
+  }
+  PlanningMap map({.obstacles = {.persistence = 3.0}}, Footprint(kRobotFootprint), 0.05, 0.8);
+  map.set_map(room);
+  RandomStream random(7, "planning_map_test");
+  int updates = 0;
+  for (int step = 0; step < 150; ++step) {
+    const double time = 10.0 + 0.1 * step;
+    const Pose2 robot{random.uniform(1.5, 3.0), 2.5, random.uniform(-3.0, 3.0)};
+    map.integrate(beam(random.uniform(0.5, 3.0), time), at(robot));
+    if (random.below(4) == 0) map.set_spots({{{random.uniform(1.0, 5.0), 3.0}, 0.05}});
+    Detection pig;
+    pig.position = {1.0 + 0.02 * step, 2.0, 0.2};
+    pig.size = {0.4, 0.4, 0.4};
+    if (step % 50 < 30) {
+      EXPECT_TRUE(map.animals().see({pig}, time_from_seconds(time)));
+    }
+    PlanningMap anew = map;
+    anew.set_map(room);
+    ASSERT_TRUE(anew.update(time_from_seconds(time), robot));
+    // Costs wait for an obstacle that changes.
+    if (!map.update(time_from_seconds(time), robot)) continue;
+    ++updates;
+    ASSERT_EQ(map.costmap().costs(), anew.costmap().costs()) << "step " << step;
+    ASSERT_TRUE(std::ranges::equal(map.costmap().distances().squared_cells(),
+                                   anew.costmap().distances().squared_cells()));
+  }
+  EXPECT_GT(updates, 100);
 }
 
 }  // namespace
