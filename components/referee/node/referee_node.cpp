@@ -24,8 +24,15 @@ namespace {
 constexpr auto kStepPeriod = std::chrono::milliseconds(100);
 constexpr auto kPatience = std::chrono::seconds(1);
 
-Eigen::Vector2d working_point_of(const std::string& robot) {
-  return robot::RobotModel::load(robot).mount(robot::kWorkingPoint).translation().head<2>();
+std::optional<Eigen::AlignedBox2d> scraper_of(const robot::RobotModel& robot) {
+  if (!robot.has_link(robot::kScraperLink)) return std::nullopt;
+  return robot.scraper();
+}
+
+/// Where a target has to be when the robot has arrived.
+Eigen::Vector2d working_point_of(const robot::RobotModel& robot) {
+  if (const auto scraper = scraper_of(robot)) return scraper->center();
+  return robot.mount(robot::kWorkingPoint).translation().head<2>();
 }
 
 MissionEgg::Phase to_phase(std::uint8_t state) {
@@ -54,6 +61,8 @@ void RefereeNodeConfig::describe(config::Fields& fields) {
   fields.text("robot", robot, {.help = "URDF of the robot: the arm's working point"});
   fields.text("file", file, {.help = "table of the attempts, in the run's folder"});
   fields.text("legs_file", legs_file, {.help = "table of the drives between goals, there as well"});
+  fields.text("heaps_file", heaps_file,
+              {.help = "table of the heaps of a robot that cleans, there as well"});
   fields.number(
       "goal_radius", goal_radius,
       {.unit = "m", .help = "a goal of a drive is reached within", .min = 0.01, .max = 10});
@@ -77,18 +86,25 @@ void RefereeNode::Table::add(const std::vector<std::string>& row) {
 }
 
 void RefereeNode::check(const Config& config) {
-  (void)working_point_of(config.robot);
+  (void)working_point_of(robot::RobotModel::load(config.robot));
 }
 
 RefereeNode::RefereeNode(runtime::Node& node, const Config& config)
+    : RefereeNode(node, config, robot::RobotModel::load(config.robot)) {}
+
+RefereeNode::RefereeNode(runtime::Node& node, const Config& config, const robot::RobotModel& robot)
     : node_(node),
       config_(config),
-      referee_(config.referee, working_point_of(config.robot)),
+      referee_(config.referee, working_point_of(robot)),
       legs_(config.goal_radius),
       transforms_(node.transforms()),
       moments_("map", kPatience, 200),
       attempts_(node.options().run_dir / config.file, attempt_columns()),
       leg_table_(node.options().run_dir / config.legs_file, leg_columns()) {
+  if (const auto scraper = scraper_of(robot)) {
+    cleaning_.emplace(*scraper);
+    heap_table_.emplace(node.options().run_dir / config.heaps_file, heap_columns());
+  }
   subscribe();
   node.every(kStepPeriod, [this] { step(); });
   node.on_stop([this] {
@@ -98,6 +114,7 @@ RefereeNode::RefereeNode(runtime::Node& node, const Config& config)
 }
 
 void RefereeNode::end() {
+  if (!referee_.has_ended()) write_heaps();
   referee_.end();
   legs_.end();
 }
@@ -109,6 +126,7 @@ void RefereeNode::subscribe() {
                                            if (!world) return;
                                            referee_.begin(*world);
                                            legs_.begin(world->robot_start);
+                                           if (cleaning_) cleaning_->begin(*world);
                                          });
   // Every sample counts, but none needs an answer of its own.
   node_.subscribe<GroundTruth>(
@@ -134,6 +152,7 @@ void RefereeNode::receive(const GroundTruth& message) {
   if (!truth) return;
   referee_.see(*truth);
   legs_.see(*truth);
+  if (cleaning_) cleaning_->see(*truth);
   moments_.push({truth->stamp, truth->robot_in_world}, "base_link", truth->stamp);
 }
 
@@ -149,11 +168,15 @@ void RefereeNode::receive(const NavigationStatus& message) {
 void RefereeNode::receive(const MissionStatus& message) {
   if (message.state() != MissionConstants::IDLE && mission_begun_ == Time{}) {
     mission_begun_ = node_.now();
+    if (cleaning_) cleaning_->begin_mission(mission_begun_);
   }
   MissionView view;
   view.ended =
       message.state() == MissionConstants::DONE || message.state() == MissionConstants::FAILED;
+  if (view.ended && !referee_.has_ended()) write_heaps();
+  // Heaps are judged by where the blade was, not attempt by attempt.
   for (const auto& egg : message.eggs()) {
+    if (cleaning_) break;
     view.eggs.push_back({.id = egg.egg_id(),
                          .phase = to_phase(egg.state()),
                          .tries = egg.attempts(),
@@ -170,10 +193,18 @@ void RefereeNode::step() {
       });
   const bool time_is_up = config_.time_limit > 0.0 && mission_begun_ != Time{} &&
                           node_.now() - mission_begun_ > seconds(config_.time_limit);
-  if (time_is_up) referee_.end();
+  if (time_is_up) end();
   if (referee_.has_ended()) legs_.end();
   write_finished();
   if (referee_.has_ended()) node_.finish(time_is_up ? "time is up" : "the mission is over");
+}
+
+void RefereeNode::write_heaps() {
+  if (!cleaning_) return;
+  for (const CleanedHeap& heap : cleaning_->heaps()) {
+    heap_table_->add(
+        to_row(heap, node_.options().seed, heap_table_->rows + 1, cleaning_->mission_time()));
+  }
 }
 
 void RefereeNode::write_finished() {

@@ -5,10 +5,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/robot/robot_model.hpp"
+#include "referee/cleaning.hpp"
 #include "referee/legs.hpp"
 #include "referee/referee.hpp"
 #include "runtime/node.hpp"
@@ -18,10 +20,11 @@ namespace coop::referee {
 
 struct RefereeNodeConfig {
   std::string robot = "config/robot/egg_collector.urdf";
-  std::string file = "attempts.csv";   ///< in the run's folder
-  std::string legs_file = "legs.csv";  ///< in the run's folder
-  double goal_radius = 0.7;            ///< m; a goal of a leg is reached within
-  double time_limit = 0.0;             ///< s of mission, then the run is over; 0: none
+  std::string file = "attempts.csv";     ///< in the run's folder
+  std::string legs_file = "legs.csv";    ///< in the run's folder
+  std::string heaps_file = "heaps.csv";  ///< in the run's folder, of a robot that cleans
+  double goal_radius = 0.7;              ///< m; a goal of a leg is reached within
+  double time_limit = 0.0;               ///< s of mission, then the run is over; 0: none
   RefereeConfig referee;
 
   void describe(config::Fields& fields);
@@ -36,6 +39,7 @@ class RefereeNode {
   RefereeNode(runtime::Node& node, const Config& config);
 
  private:
+  RefereeNode(runtime::Node& node, const Config& config, const robot::RobotModel& robot);
   void subscribe();
   void receive(const coop_msgs::msg::GroundTruth& message);
   void receive(const coop_msgs::msg::MissionStatus& message);
@@ -43,6 +47,7 @@ class RefereeNode {
   void step();
   void end();
   void write_finished();
+  void write_heaps();
 
   /// A file of the run that grows by rows.
   struct Table {
@@ -65,6 +70,8 @@ class RefereeNode {
   runtime::StampedQueue<Moment> moments_;
   Table attempts_;
   Table leg_table_;
+  std::optional<Cleaning> cleaning_;  ///< of a robot with a scraper
+  std::optional<Table> heap_table_;   ///< written when the mission is over
   Time mission_begun_{};
 };
 
