@@ -41,8 +41,8 @@ void draw_pigs(Canvas& canvas, const Record& record) {
 /// The place of the heap in the order of the mission, and what the mission says became of it.
 std::string story_of(const world::Heap& heap, const Record& record) {
   for (std::size_t i = 0; i < record.order.size(); ++i) {
-    const auto task = std::ranges::find(record.eggs, record.order[i], &EggRecord::id);
-    if (task != record.eggs.end() && (task->egg_in_map - heap.position).norm() < kSameHeap) {
+    const auto task = std::ranges::find(record.targets, record.order[i], &TargetRecord::id);
+    if (task != record.targets.end() && (task->place_in_map - heap.position).norm() < kSameHeap) {
       return std::to_string(i + 1);
     }
   }
@@ -67,8 +67,8 @@ std::string pen_row(const PenRun& run) {
   return fmt::format(
       "<tr><td>{}</td><td>{}</td><td class=\"{}\">{} of {}</td><td>{}</td><td>{}</td>"
       "<td>{:.0f} s</td><td>{:.1f} m</td><td>{:.3f} m</td></tr>\n",
-      run.pen, run.seed, is_clean(run.record) ? "good" : "bad", run.record.eggs_collected,
-      run.record.eggs_in_world, run.record.animal_collisions,
+      run.pen, run.seed, is_clean(run.record) ? "good" : "bad", run.record.targets_taken,
+      run.record.targets_in_world, run.record.animal_collisions,
       run.record.collisions - run.record.animal_collisions, f.duration, f.distance_driven,
       f.position_error.mean);
 }
@@ -129,8 +129,8 @@ std::string render_cleaning_html(const std::vector<PenRun>& runs, const Summary&
   int heaps = 0;
   std::uint32_t touched = 0;
   for (const PenRun& run : runs) {
-    cleaned += run.record.eggs_collected;
-    heaps += run.record.eggs_in_world;
+    cleaned += run.record.targets_taken;
+    heaps += run.record.targets_in_world;
     touched += run.record.animal_collisions;
   }
   std::string body =

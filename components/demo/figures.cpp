@@ -15,17 +15,17 @@ ErrorFigures summarize(std::vector<double> errors) {
           errors[static_cast<std::size_t>(std::lround(0.95 * last))], errors.back()};
 }
 
-int count_eggs(const Record& record, std::string_view state) {
-  return static_cast<int>(
-      std::ranges::count(record.eggs, state, [](const EggRecord& egg) { return egg.state; }));
+int count_done(const Record& record) {
+  return static_cast<int>(std::ranges::count_if(record.targets, is_done));
 }
 
 }  // namespace
 
 Figures compute_figures(const Record& record) {
   Figures figures;
-  figures.eggs_picked = count_eggs(record, "picked");
-  figures.eggs_failed = count_eggs(record, "failed");
+  figures.targets_done = count_done(record);
+  figures.targets_failed =
+      static_cast<int>(std::ranges::count(record.targets, "failed", &TargetRecord::state));
   const auto& track = record.track;
   if (track.empty()) return figures;
   figures.duration = to_seconds(track.back().stamp - track.front().stamp);
@@ -45,15 +45,15 @@ Figures compute_figures(const Record& record) {
 }
 
 bool is_success(const Record& record) {
-  return record.mission_state == "done" && record.eggs_in_world > 0 && record.collisions == 0 &&
-         record.eggs_collected == record.eggs_in_world &&
-         count_eggs(record, "picked") == record.eggs_in_world;
+  return record.mission_state == "done" && record.targets_in_world > 0 && record.collisions == 0 &&
+         record.targets_taken == record.targets_in_world &&
+         count_done(record) == record.targets_in_world;
 }
 
 bool is_clean(const Record& record) {
   return record.mission_state == "done" && record.collisions == 0 &&
-         record.eggs_collected == record.eggs_in_world &&
-         count_eggs(record, "picked") == static_cast<int>(record.eggs.size());
+         record.targets_taken == record.targets_in_world &&
+         count_done(record) == static_cast<int>(record.targets.size());
 }
 
 }  // namespace coop::demo

@@ -16,8 +16,8 @@ struct Figures {
   double mean_speed = 0.0;       ///< m/s
   ErrorFigures position_error;   ///< m, estimate against truth
   ErrorFigures heading_error;    ///< rad
-  int eggs_picked = 0;
-  int eggs_failed = 0;
+  int targets_done = 0;
+  int targets_failed = 0;
 };
 
 [[nodiscard]] Figures compute_figures(const Record& record);

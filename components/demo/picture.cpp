@@ -28,9 +28,9 @@ cv::Scalar costmap_colour(std::int8_t cost) {
 }
 
 void draw_eggs(Canvas& canvas, const Record& record) {
-  for (const EggRecord& egg : record.eggs) {
-    const cv::Point at = canvas.pixel(egg.egg_in_map);
-    const bool picked = egg.state == "picked";
+  for (const TargetRecord& egg : record.targets) {
+    const cv::Point at = canvas.pixel(egg.place_in_map);
+    const bool picked = is_done(egg);
     cv::ellipse(canvas.image(), at, {9, 7}, 0, 0, 360, picked ? kWhite : cv::Scalar(60, 60, 230),
                 cv::FILLED, cv::LINE_AA);
     cv::ellipse(canvas.image(), at, {9, 7}, 0, 0, 360, kBlack, 1, cv::LINE_AA);

@@ -12,13 +12,18 @@
 namespace coop::demo {
 
 /// What became of one target, an egg or a heap of manure, as the mission tells it.
-struct EggRecord {
+struct TargetRecord {
   std::string id;
-  Eigen::Vector2d egg_in_map{0, 0};
-  std::string state;  ///< "picked", "failed", ...
+  Eigen::Vector2d place_in_map{0, 0};
+  std::string state;  ///< "picked" or "cleaned", "failed", ...
   int attempts = 0;
   std::string reason;  ///< of a failure
 };
+
+/// Whether the mission says that it has got what it wanted.
+[[nodiscard]] inline bool is_done(const TargetRecord& target) {
+  return target.state == "picked" || target.state == "cleaned";
+}
 
 /// The robot at one time: where it was and where it thought it was.
 struct TrackPoint {
@@ -34,13 +39,13 @@ struct Record {
   /// nav2's percentages: 100 lethal, 99 inscribed, 1 to 98 restricted, 0 free, -1 unknown.
   OccupancyGrid costmap;
   std::vector<TrackPoint> track;  ///< ordered by stamp
-  std::vector<EggRecord> eggs;
+  std::vector<TargetRecord> targets;
   std::vector<std::string> order;  ///< ids in the order the colony chose
   double tour_cost = 0.0;          ///< m, as ordered
   std::uint32_t collisions = 0;
   std::uint32_t animal_collisions = 0;  ///< of these, with an animal
-  int eggs_in_world = 0;                ///< or heaps
-  int eggs_collected = 0;               ///< or heaps cleaned, by the simulator's count
+  int targets_in_world = 0;             ///< or heaps
+  int targets_taken = 0;                ///< or heaps cleaned, by the simulator's count
   std::vector<world::Heap> heaps;       ///< as they lie at last, in map
   std::vector<std::vector<Eigen::Vector2d>> animal_tracks;  ///< in map
   std::vector<double> animal_radii;                         ///< m, of the same

@@ -18,7 +18,7 @@ std::string render_html(const Record& survey, const Record& collection, const Su
   const std::string body =
       "<h1>Egg collection in the duck house</h1>\n" +
       fmt::format("<p class=\"{}\">{} of {} eggs collected, {} collisions.</p>\n",
-                  good ? "good" : "bad", collection.eggs_collected, collection.eggs_in_world,
+                  good ? "good" : "bad", collection.targets_taken, collection.targets_in_world,
                   collection.collisions + survey.collisions) +
       fmt::format("<p>Seed {}, {:.0f} s of wall time, {}.</p>\n", summary.seed,
                   summary.wall_seconds, escape_markup(summary.version)) +
@@ -26,7 +26,7 @@ std::string render_html(const Record& survey, const Record& collection, const Su
       image_tag(run_png, "costmap, path driven, eggs and their order") + figures_table(collection) +
       target_table(collection, "egg") +
       fmt::format("<p>Cost of the chosen order: {:.2f} m. Picked {}, failed {}.</p>\n",
-                  collection.tour_cost, f.eggs_picked, f.eggs_failed) +
+                  collection.tour_cost, f.targets_done, f.targets_failed) +
       "<h2>The survey</h2>\n<p>The map the robot made of the house before, and its way through "
       "it.</p>\n" +
       image_tag(map_png, "map made by slam") + figures_table(survey);

@@ -58,35 +58,35 @@ std::string figures_table(const Record& record) {
          row("collisions", std::to_string(record.collisions)) + "</table>\n";
 }
 
-std::string target_table(const Record& record, std::string_view target) {
+std::string target_table(const Record& record, std::string_view name) {
   std::string out = fmt::format(
       "<table>\n<tr><th>order</th><th>{}</th><th>x, y in map</th><th>result</th>"
       "<th>attempts</th><th>reason</th></tr>\n",
-      target);
-  for (const EggRecord& egg : record.eggs) {
-    const auto place = std::ranges::find(record.order, egg.id);
+      name);
+  for (const TargetRecord& target : record.targets) {
+    const auto place = std::ranges::find(record.order, target.id);
     out += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{:.2f}, {:.2f} m</td><td class=\"{}\">{}</td>"
         "<td>{}</td><td>{}</td></tr>\n",
         place == record.order.end() ? std::string("-")
                                     : std::to_string(place - record.order.begin() + 1),
-        escape_markup(egg.id), egg.egg_in_map.x(), egg.egg_in_map.y(),
-        egg.state == "picked" ? "good" : "bad", escape_markup(egg.state), egg.attempts,
-        escape_markup(egg.reason));
+        escape_markup(target.id), target.place_in_map.x(), target.place_in_map.y(),
+        is_done(target) ? "good" : "bad", escape_markup(target.state), target.attempts,
+        escape_markup(target.reason));
   }
   return out + "</table>\n";
 }
 
 nlohmann::ordered_json to_json(const Record& record) {
   const Figures f = compute_figures(record);
-  nlohmann::ordered_json eggs = nlohmann::ordered_json::array();
-  for (const EggRecord& egg : record.eggs) {
-    eggs.push_back({{"id", egg.id},
-                    {"x", egg.egg_in_map.x()},
-                    {"y", egg.egg_in_map.y()},
-                    {"state", egg.state},
-                    {"attempts", egg.attempts},
-                    {"reason", egg.reason}});
+  nlohmann::ordered_json targets = nlohmann::ordered_json::array();
+  for (const TargetRecord& target : record.targets) {
+    targets.push_back({{"id", target.id},
+                       {"x", target.place_in_map.x()},
+                       {"y", target.place_in_map.y()},
+                       {"state", target.state},
+                       {"attempts", target.attempts},
+                       {"reason", target.reason}});
   }
   const auto errors = [](const ErrorFigures& e) {
     return nlohmann::ordered_json{{"mean", e.mean}, {"p95", e.p95}, {"max", e.max}};
@@ -98,11 +98,11 @@ nlohmann::ordered_json to_json(const Record& record) {
           {"position_error_m", errors(f.position_error)},
           {"heading_error_rad", errors(f.heading_error)},
           {"collisions", record.collisions},
-          {"eggs_in_world", record.eggs_in_world},
-          {"eggs_collected", record.eggs_collected},
+          {"targets_in_world", record.targets_in_world},
+          {"targets_taken", record.targets_taken},
           {"order", record.order},
           {"tour_cost_m", record.tour_cost},
-          {"eggs", eggs}};
+          {"targets", targets}};
 }
 
 }  // namespace coop::demo

@@ -13,7 +13,7 @@ namespace coop::demo {
 /// Time, distance, errors, collisions.
 [[nodiscard]] std::string figures_table(const Record& record);
 /// What became of each target; `target` is what they are called.
-[[nodiscard]] std::string target_table(const Record& record, std::string_view target);
+[[nodiscard]] std::string target_table(const Record& record, std::string_view name);
 [[nodiscard]] nlohmann::ordered_json to_json(const Record& record);
 
 }  // namespace coop::demo

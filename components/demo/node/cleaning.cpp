@@ -31,10 +31,10 @@ Part part_of(int pen, std::uint64_t seed, const StoryOptions& options) {
 void print_result(const PenRun& run) {
   const Figures f = compute_figures(run.record);
   std::cout << fmt::format("pen {}: {} of {} heaps cleaned, {} pigs touched, {:.0f} s, {:.1f} m\n",
-                           run.pen, run.record.eggs_collected, run.record.eggs_in_world,
+                           run.pen, run.record.targets_taken, run.record.targets_in_world,
                            run.record.animal_collisions, f.duration, f.distance_driven);
-  for (const EggRecord& heap : run.record.eggs) {
-    if (heap.state == "picked") continue;
+  for (const TargetRecord& heap : run.record.targets) {
+    if (is_done(heap)) continue;
     std::cout << fmt::format("{}: {} after {} attempts: {}\n", heap.id, heap.state, heap.attempts,
                              heap.reason);
   }

@@ -9,6 +9,7 @@
 #include "conversions/navigation.hpp"
 #include "conversions/time.hpp"
 #include "conversions/world.hpp"
+#include "coop_msgs/msg/Mission.h"
 
 namespace coop::demo {
 
@@ -25,13 +26,17 @@ namespace {
 constexpr auto kTrackPeriod = std::chrono::milliseconds(100);
 constexpr auto kPatience = std::chrono::seconds(2);
 
-const char* mission_state_name(std::uint8_t state) {
+const char* mission_state_name(std::uint8_t state, bool cleans) {
+  if (cleans && state == coop_msgs::msg::MissionStatus_Constants::PICKING) return "cleaning";
   static constexpr std::array kNames{"idle",      "searching", "ordering", "driving", "picking",
                                      "returning", "done",      "failed",   "paused"};
   return state < kNames.size() ? kNames.at(state) : "unknown";
 }
 
-const char* egg_state_name(std::uint8_t state) {
+const char* target_state_name(std::uint8_t state, bool cleans) {
+  using namespace coop_msgs::msg::EggStatus_Constants;
+  if (cleans && state == PICKING) return "cleaning";
+  if (cleans && state == PICKED) return "cleaned";
   static constexpr std::array kNames{"seen",   "queued", "approaching", "picking",
                                      "picked", "failed", "missing"};
   return state < kNames.size() ? kNames.at(state) : "unknown";
@@ -68,7 +73,7 @@ void Observer::receive(const World& world) {
   const auto start = conversions::pose3_from_msg(world.robot_start());
   if (!start || world_in_map_) return;
   world_in_map_ = watch_.map_is_world ? Pose2{} : to_pose2(*start).inverse();
-  record_.eggs_in_world = static_cast<int>(world.eggs().size() + world.heaps().size());
+  record_.targets_in_world = static_cast<int>(world.eggs().size() + world.heaps().size());
 }
 
 void Observer::receive(const GroundTruth& truth) {
@@ -79,7 +84,7 @@ void Observer::receive(const GroundTruth& truth) {
                          [](const SimEgg& egg) { return egg.state(); });
   const auto cleaned = std::ranges::count(truth.heaps(), coop_msgs::msg::SimHeap_Constants::CLEANED,
                                           [](const SimHeap& heap) { return heap.state(); });
-  record_.eggs_collected = static_cast<int>(collected + cleaned);
+  record_.targets_taken = static_cast<int>(collected + cleaned);
   const auto stamp = conversions::from_msg(truth.header().stamp());
   const auto pose = conversions::pose3_from_msg(truth.robot());
   if (!stamp || !pose || *stamp < last_track_ + kTrackPeriod) return;
@@ -119,17 +124,18 @@ void Observer::match_track() {
 }
 
 void Observer::receive(const MissionStatus& status) {
-  record_.mission_state = mission_state_name(status.state());
+  const bool cleans = status.kind() == coop_msgs::msg::Mission_Constants::CLEAN;
+  record_.mission_state = mission_state_name(status.state(), cleans);
   record_.mission_detail = status.detail();
   record_.order = status.order();
   record_.tour_cost = status.tour_cost();
-  record_.eggs.clear();
+  record_.targets.clear();
   for (const auto& egg : status.eggs()) {
-    record_.eggs.push_back({egg.egg_id(),
-                            {egg.position().x(), egg.position().y()},
-                            egg_state_name(egg.state()),
-                            egg.attempts(),
-                            egg.reason()});
+    record_.targets.push_back({egg.egg_id(),
+                               {egg.position().x(), egg.position().y()},
+                               target_state_name(egg.state(), cleans),
+                               egg.attempts(),
+                               egg.reason()});
   }
 }
 
@@ -137,11 +143,11 @@ std::string Observer::progress() const {
   if (record_.mission_state.empty()) return "starting";
   std::string line = record_.mission_state;
   if (!record_.mission_detail.empty()) line += ": " + record_.mission_detail;
-  if (record_.eggs_in_world > 0 && !record_.eggs.empty()) {
+  if (record_.targets_in_world > 0 && !record_.targets.empty()) {
     const bool cleans = !record_.heaps.empty();
     line += fmt::format(" [{} seen {}, {} {} of {}]", cleans ? "heaps" : "eggs",
-                        record_.eggs.size(), cleans ? "cleaned" : "collected",
-                        record_.eggs_collected, record_.eggs_in_world);
+                        record_.targets.size(), cleans ? "cleaned" : "collected",
+                        record_.targets_taken, record_.targets_in_world);
   }
   return line;
 }

@@ -17,10 +17,10 @@ void print_result(const Record& record, const std::filesystem::path& folder) {
   std::cout << fmt::format(
       "{} of {} eggs collected, {} collisions, {:.0f} s, {:.1f} m driven, position error mean "
       "{:.3f} m, max {:.3f} m\n",
-      record.eggs_collected, record.eggs_in_world, record.collisions, f.duration, f.distance_driven,
-      f.position_error.mean, f.position_error.max);
-  for (const EggRecord& egg : record.eggs) {
-    if (egg.state != "picked") {
+      record.targets_taken, record.targets_in_world, record.collisions, f.duration,
+      f.distance_driven, f.position_error.mean, f.position_error.max);
+  for (const TargetRecord& egg : record.targets) {
+    if (!is_done(egg)) {
       std::cout << fmt::format("egg {}: {} after {} attempts: {}\n", egg.id, egg.state,
                                egg.attempts, egg.reason);
     }

@@ -28,11 +28,11 @@ PenRun sample_run() {
                   {"b", {3.0, 2.0}, 0.07, world::HeapState::kOnFloor}};
   record.animal_tracks = {{{2.0, 1.0}, {2.2, 1.0}}};
   record.animal_radii = {0.25};
-  record.eggs = {{"heap1", {1.0, 0.5}, "picked", 1, ""},
-                 {"heap2", {3.0, 2.0}, "failed", 8, "a pig"}};
+  record.targets = {{"heap1", {1.0, 0.5}, "cleaned", 1, ""},
+                    {"heap2", {3.0, 2.0}, "failed", 8, "a pig"}};
   record.order = {"heap1", "heap2"};
-  record.eggs_in_world = 2;
-  record.eggs_collected = 1;
+  record.targets_in_world = 2;
+  record.targets_taken = 1;
   record.mission_state = "done";
   return run;
 }
@@ -40,8 +40,8 @@ PenRun sample_run() {
 PenRun clean_run() {
   PenRun run = sample_run();
   run.record.heaps[1].state = world::HeapState::kCleaned;
-  run.record.eggs[1].state = "picked";
-  run.record.eggs_collected = 2;
+  run.record.targets[1].state = "cleaned";
+  run.record.targets_taken = 2;
   return run;
 }
 
@@ -52,7 +52,7 @@ TEST(CleaningReport, APenIsCleanWhenMissionAndSimulatorSaySoAndNothingWasTouched
   touched.collisions = 1;
   EXPECT_FALSE(is_clean(touched));
   Record left = clean_run().record;
-  left.eggs_collected = 1;
+  left.targets_taken = 1;
   EXPECT_FALSE(is_clean(left));
 }
 
@@ -73,7 +73,7 @@ TEST(CleaningReport, ThePageAndTheFiguresTellOfEveryPen) {
       {sample_run(), clean_run()}, {.seed = 7, .wall_seconds = 5, .version = "v"}));
   EXPECT_FALSE(figures["success"]);
   EXPECT_EQ(figures["pens"][0]["pen"], 3);
-  EXPECT_EQ(figures["pens"][1]["eggs_collected"], 2);
+  EXPECT_EQ(figures["pens"][1]["targets_taken"], 2);
 }
 
 TEST(CleaningReport, AllFilesAreWritten) {

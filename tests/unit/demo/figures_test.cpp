@@ -24,18 +24,18 @@ Record sample_record() {
   record.costmap = record.map;
   record.costmap[{10, 10}] = 100;
   record.costmap[{11, 10}] = 99;
-  record.eggs = {{"egg1", {1, 1}, "picked", 1, ""}, {"egg2", {2, 1}, "failed", 3, "<no path>"}};
+  record.targets = {{"egg1", {1, 1}, "picked", 1, ""}, {"egg2", {2, 1}, "failed", 3, "<no path>"}};
   record.order = {"egg2", "egg1"};
-  record.eggs_in_world = 2;
-  record.eggs_collected = 1;
+  record.targets_in_world = 2;
+  record.targets_taken = 1;
   record.mission_state = "done";
   return record;
 }
 
 Record successful_record() {
   Record record = sample_record();
-  record.eggs[1].state = "picked";
-  record.eggs_collected = 2;
+  record.targets[1].state = "picked";
+  record.targets_taken = 2;
   return record;
 }
 
@@ -47,8 +47,8 @@ TEST(FiguresTest, TimeDistanceAndErrorsAreThoseOfTheTrack) {
   EXPECT_NEAR(figures.position_error.mean, 0.1, 1e-12);
   EXPECT_NEAR(figures.position_error.max, 0.1, 1e-12);
   EXPECT_NEAR(figures.heading_error.p95, 0.02, 1e-12);
-  EXPECT_EQ(figures.eggs_picked, 1);
-  EXPECT_EQ(figures.eggs_failed, 1);
+  EXPECT_EQ(figures.targets_done, 1);
+  EXPECT_EQ(figures.targets_failed, 1);
 }
 
 TEST(FiguresTest, AnEmptyRecordHasNoFiguresAndIsNoSuccess) {
@@ -63,7 +63,7 @@ TEST(FiguresTest, SuccessNeedsAllEggsInMissionAndWorldAndNoCollision) {
   bumped.collisions = 1;
   EXPECT_FALSE(is_success(bumped));
   Record miscounted = successful_record();
-  miscounted.eggs_collected = 1;
+  miscounted.targets_taken = 1;
   EXPECT_FALSE(is_success(miscounted));
   Record unfinished = successful_record();
   unfinished.mission_state = "driving";
