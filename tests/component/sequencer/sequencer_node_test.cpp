@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <nav_msgs/msg/OccupancyGrid.h>
 
+#include <cmath>
+#include <ctime>
 #include <set>
 
 #include "conversions/detections.hpp"
@@ -79,6 +81,24 @@ class SequencerNodeTest : public testing::Test {
       detection.covariance = Eigen::Matrix3d::Identity() * 1e-4;
       eggs_.publish(conversions::to_msg(
           Stamped<std::vector<Detection>>{fixture_.now(), "base_link", {detection}}));
+      live(200ms);
+    }
+  }
+
+  /// So many eggs in a square, that far apart, from the hall's corner on, seen three times.
+  void see_eggs(int count, double spacing) {
+    const int side = static_cast<int>(std::lround(std::sqrt(count)));
+    for (int i = 0; i < 3; ++i) {
+      std::vector<Detection> eggs;
+      for (int egg = 0; egg < count; ++egg) {
+        Detection& detection = eggs.emplace_back();
+        detection.class_id = "egg";
+        detection.score = 0.9;
+        detection.position = {0.5 + spacing * (egg % side), 0.5 + spacing * (egg / side), 0.02};
+        detection.covariance = Eigen::Matrix3d::Identity() * 1e-4;
+      }
+      eggs_.publish(
+          conversions::to_msg(Stamped<std::vector<Detection>>{fixture_.now(), "map", eggs}));
       live(200ms);
     }
   }
@@ -265,6 +285,28 @@ TEST_F(SequencerNodeTest, KilledAfterTheEndItDoesNotBeginAnew) {
   live(5s);
   EXPECT_EQ(goals_->size(), told_before);
   EXPECT_EQ(phase(), StatusConstants::DONE);
+}
+
+TEST_F(SequencerNodeTest, TenThousandEggsAreTakenInAndTheFirstIsDrivenTo) {
+  start();
+  publish_costmap();
+  live(200ms);
+  const std::clock_t begin = std::clock();
+  see_eggs(10'000, 0.11);
+  live(1s);
+  ASSERT_FALSE(goals_->empty());
+  EXPECT_EQ(status_->back().eggs().size(), 10'000U);
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 60.0);
+}
+
+TEST_F(SequencerNodeTest, EggsOnTopOfOneAnotherAreOne) {
+  start();
+  publish_costmap();
+  live(200ms);
+  see_eggs(10'000, 0.0);
+  live(1s);
+  ASSERT_FALSE(goals_->empty());
+  EXPECT_EQ(status_->back().eggs().size(), 1U);
 }
 
 TEST_F(SequencerNodeTest, AMissionOfAnUnknownKindIsRefused) {
