@@ -5,6 +5,9 @@ help_90_develop() {
 Develop
   experiment casma [--seeds 500] [--seed 1] [--jobs 1] [-o DIR]
                         the CASMA paper's experiments, each table beside the paper's, and a report
+  experiment planning [MAP...] [-o DIR]
+                        grid planners on the MovingAI maps: optimal lengths, time a query, report;
+                        then the speeds of searches and costmaps
   build [TARGET...]     install what is missing, configure, build (default: programs and tests)
   install [lint] [package] [ci]
                         install the Debian packages that are missing, those of further tools too

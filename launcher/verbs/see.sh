@@ -80,10 +80,19 @@ run_experiment_program() { # name arguments...
   exec "$build/experiments/${name}_experiment" "$@" -o "$(new_run_folder "$name")"
 }
 
+# Optimal lengths, then speeds: the tables of docs/experiments/planning.md.
+experiment_planning() {
+  (run_experiment_program "$@")
+  has_option -h --help "$@" && return
+  prepare core_search_bench core_costmap_bench
+  run_benches '^core_(search|costmap)_bench$'
+}
+
 verb_experiment() {
   case ${1:-} in
     navigation) verb_sweep "$@" ;;
     casma | restart) run_experiment_program "$@" ;;
-    *) die "experiments: navigation, casma, restart; not '${1:-}'" ;;
+    planning) experiment_planning "$@" ;;
+    *) die "experiments: navigation, casma, restart, planning; not '${1:-}'" ;;
   esac
 }

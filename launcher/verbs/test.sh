@@ -75,6 +75,10 @@ verb_test() {
 
 verb_bench() {
   prepare all
+  run_benches "${1:-}"
+}
+
+run_benches() { # regular expression over what is built
   local program name found= results=$build/bench/results
   mkdir -p "$results"
   for program in "$build"/bench/*; do

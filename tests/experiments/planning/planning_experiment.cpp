@@ -1,12 +1,18 @@
 /// Runs all scenarios of the MovingAI maps with every optimal grid planner: how many of the paths
-/// have the published optimal length, and what a query costs. `planning_experiment [MAP...]`
+/// have the published optimal length, and what a query costs. `planning_experiment [MAP...] [-o
+/// DIR]` prints the table and leaves it in DIR as optimal.csv and report.html.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
 #include <ctime>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <set>
 
+#include "core/atomic_file.hpp"
+#include "core/csv.hpp"
+#include "core/markup.hpp"
 #include "core/search/a_star.hpp"
 #include "core/search/dijkstra.hpp"
 #include "core/search/jump_point.hpp"
@@ -61,18 +67,36 @@ Score run(GridPlanner& planner, const TraversalGrid& grid,
   return score;
 }
 
-std::vector<std::filesystem::path> maps_of(int count, char** names) {
+std::vector<std::filesystem::path> maps_of(const std::vector<std::string>& names) {
   const auto folder = test::shared_data("planning");
   std::set<std::filesystem::path> maps;
-  for (int i = 0; i < count; ++i) maps.insert(*folder / (std::string(names[i]) + ".map"));
-  if (count > 0 || !folder) return {maps.begin(), maps.end()};
+  for (const std::string& name : names) maps.insert(*folder / (name + ".map"));
+  if (!names.empty()) return {maps.begin(), maps.end()};
   for (const auto& entry : std::filesystem::directory_iterator(*folder)) {
     if (entry.path().extension() == ".map") maps.insert(entry.path());
   }
   return {maps.begin(), maps.end()};
 }
 
-int run_all(int count, char** names) {
+using Row = std::vector<std::string>;
+
+void print(const Row& row) {
+  std::cout << fmt::format("| {} |\n", fmt::join(row, " | ")) << std::flush;
+}
+
+void write_report(const std::filesystem::path& folder, const Row& headings,
+                  const std::vector<Row>& rows, bool all_optimal) {
+  std::string csv = csv_line(headings);
+  for (const Row& row : rows) csv += csv_line(row);
+  write_file_atomically(folder / "optimal.csv", csv);
+  const std::string verdict =
+      all_optimal ? "<p class=\"good\">Every path has the published length.</p>\n"
+                  : "<p class=\"bad\">Not every path has the published length.</p>\n";
+  write_file_atomically(folder / "report.html", html_page("Optimal planners on the MovingAI maps",
+                                                          verdict + html_table(headings, rows)));
+}
+
+int run_all(const std::vector<std::string>& names, const std::string& folder) {
   if (!test::shared_data("planning")) {
     std::cerr << "not run: the shared planning data is absent\n";
     return 1;
@@ -81,27 +105,30 @@ int run_all(int count, char** names) {
   contestants.push_back({"dijkstra", std::make_unique<Dijkstra>()});
   contestants.push_back({"astar", std::make_unique<AStar>()});
   contestants.push_back({"jump_point", std::make_unique<JumpPoint>()});
-  std::cout << "| map | scenarios |";
-  for (const auto& [name, planner] : contestants) {
-    std::cout << ' ' << name << " optimal | us a query |";
+  Row headings{"map", "scenarios"};
+  for (const Contestant& contestant : contestants) {
+    headings.push_back(fmt::format("{} optimal", contestant.name));
+    headings.push_back("us a query");
   }
-  std::cout << "\n|---|---|"
-            << "---|---|---|---|---|---|\n"
-            << std::fixed << std::setprecision(1);
+  print(headings);
+  print(Row(headings.size(), "---"));
   bool all_optimal = true;
-  for (const std::filesystem::path& map : maps_of(count, names)) {
+  std::vector<Row> rows;
+  for (const std::filesystem::path& map : maps_of(names)) {
     TraversalGrid grid;
     grid.update(test::read_moving_ai_map(map));
     const auto scenarios = test::read_scenarios(map.string() + ".scen");
     if (scenarios.empty()) throw std::runtime_error("no scenarios beside " + map.string());
-    std::cout << "| " << map.stem().string() << " | " << scenarios.size() << " |";
+    Row& row = rows.emplace_back(Row{map.stem().string(), std::to_string(scenarios.size())});
     for (const auto& [name, planner] : contestants) {
       const Score score = run(*planner, grid, scenarios);
       all_optimal = all_optimal && score.optimal == scenarios.size();
-      std::cout << ' ' << score.optimal << " | " << score.microseconds << " |" << std::flush;
+      row.push_back(std::to_string(score.optimal));
+      row.push_back(fmt::format("{:.1f}", score.microseconds));
     }
-    std::cout << '\n';
+    print(row);
   }
+  if (!folder.empty()) write_report(folder, headings, rows, all_optimal);
   return all_optimal ? 0 : 1;
 }
 
@@ -109,8 +136,15 @@ int run_all(int count, char** names) {
 }  // namespace coop
 
 int main(int argc, char** argv) {
+  std::vector<std::string> maps;
+  std::string folder;
+  CLI::App app{"Runs the scenarios of the MovingAI maps with every optimal grid planner.",
+               "planning"};
+  app.add_option("map", maps, "names of maps; all where none is given");
+  app.add_option("-o,--output", folder, "folder of optimal.csv and report.html");
+  CLI11_PARSE(app, argc, argv);
   try {
-    return coop::run_all(argc - 1, argv + 1);
+    return coop::run_all(maps, folder);
   } catch (const std::exception& error) {
     std::cerr << "planning_experiment: " << error.what() << '\n';
     return 1;
