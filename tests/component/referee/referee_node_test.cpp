@@ -166,5 +166,27 @@ TEST_F(RefereeNodeTest, AStopWritesWhatIsOpen) {
   EXPECT_EQ(field(after, "cause"), "mission ended");
 }
 
+TEST_F(RefereeNodeTest, OfARobotThatCleansHeapsAreJudgedByWhereItsBladeWas) {
+  config_.robot = std::string(COOP_SOURCE_DIR) + "/config/robot/pen_cleaner.urdf";
+  simulator_.world.eggs.clear();
+  simulator_.scene.eggs.clear();
+  simulator_.world.heaps = {{"near", {1.8, 1.5}, 0.06}, {"far", {4.0, 1.5}, 0.06}};
+  start();
+  tell(MissionState::DRIVING, EggState::APPROACHING, 1);
+  for (int step = 0; step < 25; ++step) {
+    simulator_.scene.robot_in_world.x += 0.02;
+    stand(20ms);
+  }
+  tell(MissionState::DONE, EggState::PICKED, 1);
+  stand(200ms);
+  const CsvTable heaps = table("heaps.csv");
+  ASSERT_EQ(heaps.rows.size(), 2U);
+  EXPECT_EQ(field(heaps, "heap"), "near");
+  EXPECT_EQ(field(heaps, "covered"), "1");
+  EXPECT_EQ(heaps.rows[1].at(heaps.column("covered")), "0");
+  EXPECT_TRUE(table().rows.empty()) << "heaps are no eggs";
+  EXPECT_TRUE(fixture_.node_of("referee").wants_to_end());
+}
+
 }  // namespace
 }  // namespace coop::referee

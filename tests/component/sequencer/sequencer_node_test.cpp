@@ -13,7 +13,6 @@
 #include "conversions/navigation.hpp"
 #include "conversions/sensors.hpp"
 #include "conversions/time.hpp"
-#include "core/config/error.hpp"
 #include "support/component_fixture.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -70,37 +69,34 @@ class SequencerNodeTest : public testing::Test {
     }
   }
 
+  static Detection egg_at(const Eigen::Vector2d& place) {
+    Detection detection;
+    detection.class_id = "egg";
+    detection.score = 0.9;
+    detection.position = {place.x(), place.y(), 0.02};
+    detection.covariance = Eigen::Matrix3d::Identity() * 1e-4;
+    return detection;
+  }
+  /// One picture.
+  void show(const std::string& frame, const std::vector<Detection>& eggs) {
+    eggs_.publish(
+        conversions::to_msg(Stamped<std::vector<Detection>>{fixture_.now(), frame, eggs}));
+    live(200ms);
+  }
   /// The camera sees an egg at (9, 6) three times, in base_link.
   void see_egg() {
     for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector2d egg = robot_.inverse() * Eigen::Vector2d{9.0, 6.0};
-      Detection detection;
-      detection.class_id = "egg";
-      detection.score = 0.9;
-      detection.position = {egg.x(), egg.y(), 0.02};
-      detection.covariance = Eigen::Matrix3d::Identity() * 1e-4;
-      eggs_.publish(conversions::to_msg(
-          Stamped<std::vector<Detection>>{fixture_.now(), "base_link", {detection}}));
-      live(200ms);
+      show("base_link", {egg_at(robot_.inverse() * Eigen::Vector2d{9.0, 6.0})});
     }
   }
-
-  /// So many eggs in a square, that far apart, from the hall's corner on, seen three times.
+  /// So many eggs in a square from the hall's corner on, that far apart, seen three times.
   void see_eggs(int count, double spacing) {
     const int side = static_cast<int>(std::lround(std::sqrt(count)));
-    for (int i = 0; i < 3; ++i) {
-      std::vector<Detection> eggs;
-      for (int egg = 0; egg < count; ++egg) {
-        Detection& detection = eggs.emplace_back();
-        detection.class_id = "egg";
-        detection.score = 0.9;
-        detection.position = {0.5 + spacing * (egg % side), 0.5 + spacing * (egg / side), 0.02};
-        detection.covariance = Eigen::Matrix3d::Identity() * 1e-4;
-      }
-      eggs_.publish(
-          conversions::to_msg(Stamped<std::vector<Detection>>{fixture_.now(), "map", eggs}));
-      live(200ms);
+    std::vector<Detection> eggs;
+    for (int egg = 0; egg < count; ++egg) {
+      eggs.push_back(egg_at({0.5 + spacing * (egg % side), 0.5 + spacing * (egg / side)}));
     }
+    for (int i = 0; i < 3; ++i) show("map", eggs);
   }
 
   /// Pictures without an egg, of a camera above the working point that looks straight down.
@@ -111,9 +107,7 @@ class SequencerNodeTest : public testing::Test {
     for (int i = 0; i < pictures; ++i) {
       cameras_.publish(conversions::to_msg(
           Stamped<Intrinsics>{fixture_.now(), "eye", {101, 101, 100, 100, 50, 50}}));
-      eggs_.publish(
-          conversions::to_msg(Stamped<std::vector<Detection>>{fixture_.now(), "eye", {}}));
-      live(200ms);
+      show("eye", {});
     }
   }
 
@@ -390,26 +384,6 @@ TEST_F(CleaningNodeTest, AnOrderToCollectIsRefusedByARobotThatCleans) {
   orders.publish(order);
   live(1s);
   EXPECT_EQ(status_->back().state(), StatusConstants::IDLE);
-}
-
-TEST(SequencerConfigTest, AMissionThatBeginsByItselfMustBeOneForTheRobot) {
-  const std::string robots = std::string(COOP_SOURCE_DIR) + "/config/robot/";
-  SequencerConfig config;
-  config.robot = robots + "egg_collector.urdf";
-  config.autostart = "collect";
-  EXPECT_NO_THROW(SequencerNode::check(config));
-  config.autostart = "clean";
-  EXPECT_THROW(SequencerNode::check(config), config::Error);
-  config.robot = robots + "pen_cleaner.urdf";
-  EXPECT_NO_THROW(SequencerNode::check(config));
-  config.autostart = "collect";
-  EXPECT_THROW(SequencerNode::check(config), config::Error);
-}
-
-TEST(SequencerConfigTest, ARobotIsRequired) {
-  SequencerConfig config;
-  config.robot = "no/such/robot.urdf";
-  EXPECT_ANY_THROW(SequencerNode::check(config));
 }
 
 }  // namespace

@@ -25,11 +25,10 @@ Trajectory straight(double speed) {
 
 class AnimalCheckTest : public ::testing::Test {
  protected:
-  explicit AnimalCheckTest(double horizon = 1.0) { config_.horizon = horizon; }
-
   /// A pig that has walked for two seconds at `velocity` and is at `place` when the robot, at the
   /// origin of odom, looks ahead.
   void let_walk(const Eigen::Vector2d& place, const Eigen::Vector2d& velocity) {
+    check_ = AnimalCheck(config_, Footprint(test::kBaseFootprint), kStep);
     for (int i = -20; i <= 0; ++i) {
       const Eigen::Vector2d at = place + 0.1 * i * velocity;
       EXPECT_TRUE(check_.see({pig(at.x(), at.y())}, time_from_seconds(10.0 + 0.1 * i)));
@@ -65,7 +64,6 @@ TEST_F(AnimalCheckTest, BeyondTheHorizonNothingIsForetold) {
   let_walk({2.1, 0.0}, {0.0, 0.0});
   EXPECT_FALSE(collides(straight(0.6)));  // met after 1.5 s
   config_.horizon = 2.0;
-  check_ = AnimalCheck(config_, Footprint(test::kBaseFootprint), kStep);
   let_walk({2.1, 0.0}, {0.0, 0.0});
   EXPECT_TRUE(collides(straight(0.6)));
 }
