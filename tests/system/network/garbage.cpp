@@ -75,12 +75,13 @@ Packet deadly_packet() {
 }
 
 bool is_deadly(const Packet& packet) {
-  for (std::size_t at = kHeader; at + 4 <= packet.size();) {
-    const bool is_little = (packet[at + 1] & 1U) != 0;
-    const std::size_t low = packet[at + (is_little ? 2 : 3)];
-    const std::size_t end = at + 4 + low + 256U * packet[at + (is_little ? 3 : 2)];
-    if (packet[at] == kStatistics && end - at - 4 == kStatisticsSize) return end < packet.size();
-    at = end;
+  // Wherever a garbled packet may make Fast DDS find one: rather one packet too many.
+  for (std::size_t at = kHeader; at + 4 <= packet.size(); ++at) {
+    const unsigned one = packet[at + 2];
+    const unsigned other = packet[at + 3];
+    const bool has_size = one + other == kStatisticsSize && (one == 0 || other == 0);
+    if (packet[at] == kStatistics && has_size && at + 4 + kStatisticsSize != packet.size())
+      return true;
   }
   return false;
 }
