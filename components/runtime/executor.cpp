@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 namespace coop::runtime {
 
@@ -39,6 +40,11 @@ void Executor::add_timer(Duration period, Callback callback, bool aligned) {
 
 void Executor::add_wall_timer(std::chrono::nanoseconds period, Callback callback) {
   wall_timers_.push_back({period, Wall::now() + period, std::move(callback)});
+}
+
+void Executor::call_at(Wall::time_point due, Callback callback) {
+  appointment_ = due;
+  appointed_ = std::move(callback);
 }
 
 void Executor::wake() noexcept {
@@ -92,6 +98,12 @@ bool Executor::run_timers() {
     callback();
     any = true;
   }
+  if (appointment_ <= now) {
+    appointment_ = Wall::time_point::max();
+    const Callback callback = std::exchange(appointed_, {});
+    callback();
+    any = true;
+  }
   return any;
 }
 
@@ -104,6 +116,9 @@ std::chrono::nanoseconds Executor::time_to_next_timer() const {
   const auto now = Wall::now();
   for (const WallTimer& timer : wall_timers_) {
     wait = std::min(wait, std::chrono::nanoseconds(timer.due - now));
+  }
+  if (appointment_ != Wall::time_point::max()) {
+    wait = std::min(wait, std::chrono::nanoseconds(appointment_ - now));
   }
   return std::max(wait, std::chrono::nanoseconds(0));
 }

@@ -42,6 +42,9 @@ class Executor {
   void add_timer(Duration period, Callback callback, bool aligned = false);
   /// The same by the steady clock, for what must go on while simulated time stands still.
   void add_wall_timer(std::chrono::nanoseconds period, Callback callback);
+  /// Calls back once at a point of the steady clock, in place of what was asked for before and has
+  /// not been called yet.
+  void call_at(Wall::time_point due, Callback callback);
 
   /// From any thread or signal handler: there is something to do.
   void wake() noexcept;
@@ -81,6 +84,8 @@ class Executor {
   std::vector<InputSource*> sources_;
   std::vector<Timer> timers_;
   std::vector<WallTimer> wall_timers_;
+  Wall::time_point appointment_ = Wall::time_point::max();
+  Callback appointed_;
   Callback round_end_ = [] {};
 };
 

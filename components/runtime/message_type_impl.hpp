@@ -39,6 +39,15 @@ class IdlMessageType : public MessageType {
     if (!type.serialize(mutable_message, &payload)) payload.length = 0;
     out.assign(payload.data, payload.data + payload.length);
   }
+  bool deserialize(const std::vector<std::uint8_t>& bytes, void* message) const override {
+    constexpr std::size_t kEncapsulation = 4;
+    if (bytes.size() < kEncapsulation) return false;
+    PubSubType type;
+    eprosima::fastrtps::rtps::SerializedPayload_t payload(static_cast<std::uint32_t>(bytes.size()));
+    std::ranges::copy(bytes, payload.data);
+    payload.length = static_cast<std::uint32_t>(bytes.size());
+    return type.deserialize(&payload, message);
+  }
   eprosima::fastdds::dds::TopicDataType* new_dds_type() const override {
     auto* type = new PubSubType();
     // Cyclone DDS refuses endpoints whose TypeObject it cannot read.

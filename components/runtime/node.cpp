@@ -56,6 +56,7 @@ struct Node::Impl {
   std::vector<std::function<void()>> jump_callbacks;
   std::optional<TimeLead> lead;
   std::optional<Pacing> pacing;
+  RoundCondition round_condition;
   bool wants_to_end = false;
   int exit_code = 0;
 
@@ -256,6 +257,18 @@ void Node::stop() {
   for (const auto& callback : impl_->stop_callbacks) callback();
   impl_->stop_callbacks.clear();
   impl_->deliver_last_words();
+}
+
+Executor& Node::executor() {
+  return impl_->executor;
+}
+
+void Node::hold_rounds_until(RoundCondition condition) {
+  impl_->round_condition = std::move(condition);
+}
+
+const Node::RoundCondition& Node::round_condition() const {
+  return impl_->round_condition;
 }
 
 bool Node::wants_to_end() const {

@@ -14,6 +14,10 @@
 #include "runtime/pacing.hpp"
 #include "runtime/transport.hpp"
 
+namespace coop_msgs::msg {
+class LockstepRoster;
+}
+
 namespace coop::runtime {
 
 /// Writes messages of one topic. Lives within the component that advertised it.
@@ -133,6 +137,19 @@ class Node {
   /// Called when the clock was set back (simulator started anew, log looped).
   void on_clock_jump(std::function<void()> callback);
 
+  /// As advertise(), for messages of which only `type` knows what they are; it must outlive the
+  /// writer.
+  [[nodiscard]] std::shared_ptr<Writer> create_writer(const std::string& topic,
+                                                      const MessageType& type, Qos qos);
+  /// For programs that handle more than topics: inputs of other kinds, timers of the steady clock.
+  [[nodiscard]] Executor& executor();
+
+  /// Whether a lockstep may go on with this roster, for a program that listens without taking part
+  /// in the ticks and must not miss a sample.
+  using RoundCondition = std::function<bool(const coop_msgs::msg::LockstepRoster& roster)>;
+  void hold_rounds_until(RoundCondition condition);
+  [[nodiscard]] const RoundCondition& round_condition() const;
+
   // For the program around the component (run.cpp, test support).
   void set_starting();
   void stop();
@@ -144,8 +161,6 @@ class Node {
   void handle_system_clock_set(Duration change);
 
  private:
-  [[nodiscard]] std::shared_ptr<Writer> create_writer(const std::string& topic,
-                                                      const MessageType& type, Qos qos);
   void add_subscription(const std::string& topic, const MessageType& type, Qos qos,
                         Attention attention, std::function<void(const Sample&)> callback);
   struct Impl;

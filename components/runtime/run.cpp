@@ -89,6 +89,7 @@ int follow_lockstep(const Options& options, const Program& program,
   node.set_starting();
   const std::shared_ptr<void> component = program.start(node, document);
   if (node.health() == Health::kStarting) node.set_ready();
+  follower.hold_until(node.round_condition());
   follower.join(node.log(), [&](Time time) { set_clock(node, clock, time); });
   run_until_stopped(executor, node);
   node.stop();

@@ -79,7 +79,7 @@ bool LockstepFollower::handle_one() {
     receive(*static_cast<const LockstepRoster*>(sample.message.get()));
     return true;
   }
-  if (round_ && transport_.is_matched(*round_)) {
+  if (round_ && may_settle()) {
     settle();
     return true;
   }
@@ -116,6 +116,10 @@ void LockstepFollower::receive(const LockstepRoster& roster) {
   }
   order_.reset();
   round_ = roster;
+}
+
+bool LockstepFollower::may_settle() const {
+  return transport_.is_matched(*round_) && (!condition_ || condition_(*round_));
 }
 
 void LockstepFollower::settle() {

@@ -27,6 +27,10 @@ class LockstepFollower : public InputSource {
 
   /// After the component was made: asks to be taken in. `set_time` moves the component's clock.
   void join(Logger& log, std::function<void(Time)> set_time);
+  /// A round is settled only when this holds too of its roster.
+  void hold_until(std::function<bool(const coop_msgs::msg::LockstepRoster&)> condition) {
+    condition_ = std::move(condition);
+  }
   /// The component stops: others go on without it.
   void leave();
 
@@ -35,6 +39,7 @@ class LockstepFollower : public InputSource {
  private:
   void receive(const coop_msgs::msg::LockstepRoster& roster);
   void ask();
+  [[nodiscard]] bool may_settle() const;
   void settle();
   void begin_tick();
   void end_tick();
@@ -53,6 +58,7 @@ class LockstepFollower : public InputSource {
   std::unique_ptr<Writer> done_writer_;
   Logger* log_ = nullptr;
   std::function<void(Time)> set_time_;
+  std::function<bool(const coop_msgs::msg::LockstepRoster&)> condition_;
   std::uint64_t epoch_ = 0;                              ///< of the master last heard; 0: none yet
   std::optional<coop_msgs::msg::LockstepRoster> round_;  ///< announced, not settled
   std::uint32_t settled_round_ = 0;

@@ -1,11 +1,8 @@
 // The promises of the intents, on both transports.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <atomic>
-#include <condition_variable>
 #include <map>
-#include <mutex>
 #include <set>
 #include <vector>
 
@@ -13,44 +10,13 @@
 #include "runtime/dds_transport.hpp"
 #include "runtime/in_process_transport.hpp"
 #include "std_msgs/msg/String.h"
+#include "unit/runtime/arrivals.hpp"
 
 namespace coop::runtime {
 namespace {
 
 using coop_msgs::msg::NavigationStatus;
 using StringMessage = std_msgs::msg::String;
-constexpr auto kDeadline = std::chrono::seconds(20);
-
-/// Signals arrivals to the waiting test.
-class Arrivals {
- public:
-  std::function<void()> callback() {
-    return [this] {
-      const std::scoped_lock lock(mutex_);
-      arrived_.notify_all();
-    };
-  }
-  /// Asks again at every arrival and, for what no arrival tells (matching), every 10 ms.
-  template <class Condition>
-  bool wait_until(Condition condition) {
-    const auto end = std::chrono::steady_clock::now() + kDeadline;
-    // The condition runs unlocked: it takes from readers, whose threads call back here.
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      std::unique_lock lock(mutex_);
-      arrived_.wait_for(lock, std::chrono::milliseconds(10));
-    }
-    return true;
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable arrived_;
-};
-
-int test_domain() {
-  return 60 + static_cast<int>(::getpid()) % 100;
-}
 
 std::unique_ptr<Transport> make_transport(const std::string& kind, const std::string& name,
                                           bool reliable_streams = false) {
@@ -138,7 +104,7 @@ TEST_P(TransportTest, TheLastStateOfEveryLatchedWriterReachesALateReader) {
   const auto late = reader<StringMessage>("static", Qos::kStateLatched);
   for (const auto& from : writers) {
     ASSERT_TRUE(arrivals_.wait_until([&] { return from->matched_readers() == 1; }));
-    ASSERT_TRUE(from->wait_for_acknowledgments(kDeadline));
+    ASSERT_TRUE(from->wait_for_acknowledgments(std::chrono::seconds(20)));
   }
   std::set<std::string> seen;
   for (Sample sample; late->take(sample);) {
@@ -188,7 +154,7 @@ TEST(DdsTransportTest, ReliableStreamsLoseNothing) {
   StringMessage message;
   message.data(std::string(2000, 'x'));
   for (int i = 0; i < 1000; ++i) ASSERT_TRUE(from->write(&message));
-  ASSERT_TRUE(from->wait_for_acknowledgments(kDeadline));
+  ASSERT_TRUE(from->wait_for_acknowledgments(std::chrono::seconds(20)));
   Sample sample;
   int taken = 0;
   while (to->take(sample)) ++taken;

@@ -1,0 +1,34 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "capture/traffic/recording.hpp"
+#include "capture/traffic/topic_names.hpp"
+#include "core/config/fields.hpp"
+
+namespace coop::capture {
+
+struct RecordConfig {
+  std::vector<std::string> topics;   ///< patterns; none: all
+  std::vector<std::string> exclude;  ///< patterns
+  std::string output;                ///< folder; empty: captures/ in the run's folder
+  double last = 0.0;                 ///< s; 0: everything goes to disk
+  bool save_on_fault = true;
+  bool save_on_emergency_stop = true;
+  double save_delay = 1.0;  ///< s between what happened and the writing of the ring
+  int ring_size = 512;      ///< MB
+  double split_size = 0.0;  ///< MB; 0: one file
+  double split_time = 0.0;  ///< s; 0: one file
+  std::string compression = "zstd";
+  double chunk_age = 1.0;  ///< s
+  int queue_size = 256;    ///< MB
+  bool attachments = true;
+
+  void describe(config::Fields& fields);
+  void validate() const;
+  [[nodiscard]] TopicSelection selection() const { return {topics, exclude}; }
+  [[nodiscard]] RecordingOptions recording(const std::filesystem::path& path) const;
+};
+
+}  // namespace coop::capture

@@ -1,0 +1,133 @@
+#include "capture/traffic/recording.hpp"
+
+#include <algorithm>
+
+#include "capture/schema/definitions.hpp"
+#include "capture/traffic/topic_names.hpp"
+
+namespace coop::capture {
+namespace {
+
+mcap::Nanoseconds to_mcap(Time time) {
+  return static_cast<mcap::Nanoseconds>(std::max<std::int64_t>(0, to_nanoseconds(time)));
+}
+
+std::unique_ptr<mcap::Writer> make_writer(const RecordingOptions& options) {
+  if (options.last > Duration{0}) {
+    return std::make_unique<mcap::Writer>(
+        mcap::Ring{.duration = static_cast<mcap::Nanoseconds>(options.last.count()),
+                   .max_bytes = options.ring_bytes},
+        options.writer);
+  }
+  std::filesystem::create_directories(options.path.parent_path());
+  return std::make_unique<mcap::Writer>(
+      mcap::Series{.path = options.path,
+                   .split_bytes = options.split_bytes,
+                   .split_duration = static_cast<mcap::Nanoseconds>(options.split_time.count())},
+      options.writer);
+}
+
+}  // namespace
+
+Recording::Recording(const RecordingOptions& options)
+    : options_(options), writer_(make_writer(options)) {}
+
+std::uint16_t Recording::add_channel(const WriterInfo& writer) {
+  const std::string type = shown_type(writer.dds_type);
+  const auto definition = ros2msg_definition(type);
+  const std::uint16_t schema = definition ? writer_->add_schema(type, "ros2msg", *definition)
+                                          : writer_->add_schema(type, "", "");
+  const std::uint16_t channel = writer_->add_channel(schema, writer.topic, "cdr",
+                                                     {{"offered_qos_profiles", to_yaml(writer.qos)},
+                                                      {"component", writer.component},
+                                                      {"writer", writer.id},
+                                                      {"dds_type", writer.dds_type},
+                                                      {"keyed", writer.keyed ? "true" : "false"}});
+  const std::scoped_lock lock(mutex_);
+  accounts_[channel].topic = writer.topic;
+  return channel;
+}
+
+bool Recording::write(std::uint16_t channel, std::uint64_t sequence, Time log_time,
+                      Time publish_time, std::span<const std::uint8_t> bytes) {
+  const bool taken = writer_->write({.channel_id = channel,
+                                     .sequence = static_cast<std::uint32_t>(sequence),
+                                     .log_time = to_mcap(log_time),
+                                     .publish_time = to_mcap(publish_time),
+                                     .data = std::as_bytes(bytes)});
+  const std::scoped_lock lock(mutex_);
+  Account& account = accounts_.at(channel);
+  // What a writer wrote before it was found does not count.
+  if (account.last != 0 && sequence > account.last + 1) {
+    account.missed += sequence - account.last - 1;
+  }
+  account.last = std::max(account.last, sequence);
+  ++(taken ? account.messages : account.refused);
+  return taken;
+}
+
+void Recording::attach(const std::string& name, const std::string& media_type,
+                       std::string_view data, Time now) {
+  writer_->attach({.log_time = to_mcap(now),
+                   .create_time = to_mcap(now),
+                   .name = name,
+                   .media_type = media_type,
+                   .data = std::as_bytes(std::span(data.data(), data.size()))});
+}
+
+void Recording::note(const std::string& name, const std::map<std::string, std::string>& facts) {
+  writer_->add({.name = name, .metadata = facts});
+}
+
+void Recording::tick(Time now) {
+  writer_->close_aged_chunk(to_mcap(now));
+}
+
+std::future<std::uint64_t> Recording::save(const std::filesystem::path& path) {
+  std::filesystem::create_directories(path.parent_path());
+  return writer_->snapshot(path);
+}
+
+void Recording::close() {
+  if (closed_) return;
+  closed_ = true;
+  if (!is_ring()) {
+    std::map<std::string, std::string> facts;
+    for (const TopicReport& topic : report()) {
+      if (topic.missed > 0) facts[topic.topic + " missed"] = std::to_string(topic.missed);
+      if (topic.refused > 0) facts[topic.topic + " refused"] = std::to_string(topic.refused);
+    }
+    writer_->add({.name = "coop.losses", .metadata = facts}, mcap::Where::kThisFile);
+  }
+  writer_->close();
+}
+
+std::vector<TopicReport> Recording::report() const {
+  std::map<std::string, TopicReport> topics;
+  const std::scoped_lock lock(mutex_);
+  for (const auto& [channel, account] : accounts_) {
+    TopicReport& topic = topics[account.topic];
+    topic.topic = account.topic;
+    topic.messages += account.messages;
+    topic.missed += account.missed;
+    topic.refused += account.refused;
+  }
+  std::vector<TopicReport> all;
+  for (auto& [name, topic] : topics) all.push_back(std::move(topic));
+  return all;
+}
+
+std::string losses_text(const std::vector<TopicReport>& report) {
+  std::string text;
+  for (const TopicReport& topic : report) {
+    if (topic.missed + topic.refused == 0) continue;
+    if (!text.empty()) text += ", ";
+    if (topic.missed > 0) text += std::to_string(topic.missed) + " missed";
+    if (topic.missed > 0 && topic.refused > 0) text += " and ";
+    if (topic.refused > 0) text += std::to_string(topic.refused) + " refused";
+    text += " of " + topic.topic;
+  }
+  return text;
+}
+
+}  // namespace coop::capture
