@@ -32,7 +32,7 @@ struct Library {
   std::string_view folder;
   std::string_view name;
 };
-constexpr std::array<Library, 13> kLibraries{{{"fastdds", "Fast DDS"},
+constexpr std::array<Library, 14> kLibraries{{{"fastdds", "Fast DDS"},
                                               {"fastrtps", "Fast DDS"},
                                               {"fastcdr", "Fast DDS"},
                                               {"yaml-cpp", "yaml-cpp"},
@@ -44,6 +44,7 @@ constexpr std::array<Library, 13> kLibraries{{{"fastdds", "Fast DDS"},
                                               {"Eigen", "Eigen"},
                                               {"unsupported", "Eigen"},
                                               {"spdlog", "spdlog"},
+                                              {"openssl", "OpenSSL"},
                                               {"coop_idl", "idl"}}};
 
 bool is_message_package(std::string_view folder) {
@@ -66,6 +67,8 @@ bool table_allows(std::string_view from, std::string_view to) {
   if (to == "yaml-cpp") return from == "core/config";
   if (to == "urdfdom") return from == "core/robot";
   if (to == "Fast DDS" || to == "spdlog") return from == "runtime";
+  // Keys are made by the launcher's tool and looked at before a participant is given them.
+  if (to == "OpenSSL") return from == "runtime" || from == "launcher";
   if (to == "OpenCV") return from == "core/image" || !is_core(from);
   if (is_core(from)) return false;
   if (from == "conversions") return to == "idl";

@@ -34,7 +34,9 @@ LockstepScript::LockstepScript(const std::vector<RecordedRoster>& rosters,
       if (mark.member >= members.size()) continue;
       const auto& endpoints = members[mark.member].endpoints;
       if (mark.endpoint >= endpoints.size()) continue;
-      auto& ticks = writers_.at(endpoints[mark.endpoint].id).ticks;
+      const auto marked = writers_.find(endpoints[mark.endpoint].id);
+      if (marked == writers_.end()) continue;  // a reader
+      auto& ticks = marked->second.ticks;
       // Several components read it: the first of them counts.
       const auto [entry, is_new] = ticks.try_emplace(mark.sequence, order.tick);
       if (!is_new) entry->second = std::min(entry->second, order.tick);

@@ -107,6 +107,7 @@ TEST_F(Recordings, TellWhatIsMissingByTopic) {
 TEST_F(Recordings, ARingKeepsTheLastAndIsWrittenOnDemand) {
   RecordingOptions ring = options();
   ring.last = std::chrono::seconds(10);
+  ring.writer.chunk_bytes = 1024;  // a chunk a second in no time: all of them have room
   Recording recording(ring);
   const auto channel = recording.add_channel(writer("/chatter", "talker"));
   for (std::uint64_t i = 1; i <= 100; ++i) {
