@@ -75,6 +75,8 @@ INSTANTIATE_TEST_SUITE_P(
         Arrow{"components/dwa/critic.cpp", "nav_msgs/msg/Path.h", false},
         Arrow{"components/dwa/critic.cpp", "yaml-cpp/yaml.h", false},
         Arrow{"components/dwa/critic.cpp", "spdlog/spdlog.h", false},
+        Arrow{"components/runtime/security_keys.cpp", "openssl/pem.h", true},
+        Arrow{"components/amcl/amcl.cpp", "openssl/pem.h", false},
         Arrow{"components/dwa/critic.cpp", "fastdds/dds/domain/DomainParticipant.hpp", false},
         Arrow{"components/dwa/node/dwa_node.cpp", "dwa/critic.hpp", true},
         Arrow{"components/dwa/node/dwa_node.cpp", "dwa/node/dwa_node.hpp", true},
