@@ -10,6 +10,7 @@
 
 #include "core/config/error.hpp"
 #include "runtime/network.hpp"
+#include "runtime/packet_guard.hpp"
 #include "runtime/security_keys.hpp"
 
 namespace coop::runtime {
@@ -53,7 +54,7 @@ void add_transports(const DdsSettings& settings, dds::DomainParticipantQos& qos)
   if (settings.discovery == "peers") {
     udp->maxInitialPeersRange = static_cast<std::uint32_t>(settings.peer_participants);
   }
-  qos.transport().user_transports.push_back(udp);
+  qos.transport().user_transports.push_back(guarded(udp));
 }
 
 /// Port 0: Fast DDS tries the usual ports of the domain, as many as the transport's range.

@@ -74,18 +74,6 @@ Packet deadly_packet() {
   return packet;
 }
 
-bool is_deadly(const Packet& packet) {
-  // Wherever a garbled packet may make Fast DDS find one: rather one packet too many.
-  for (std::size_t at = kHeader; at + 4 <= packet.size(); ++at) {
-    const unsigned one = packet[at + 2];
-    const unsigned other = packet[at + 3];
-    const bool has_size = one + other == kStatisticsSize && (one == 0 || other == 0);
-    if (packet[at] == kStatistics && has_size && at + 4 + kStatisticsSize != packet.size())
-      return true;
-  }
-  return false;
-}
-
 Garbage::Garbage(std::vector<Packet> genuine, std::uint64_t seed)
     : genuine_(std::move(genuine)), random_(seed) {}
 
@@ -137,13 +125,6 @@ Packet Garbage::mutated() {
 }
 
 Packet Garbage::next() {
-  for (;;) {
-    Packet packet = any();
-    if (!is_deadly(packet)) return packet;
-  }
-}
-
-Packet Garbage::any() {
   const std::size_t choice = below(10);
   if (choice == 0) return noise(1500);
   if (choice == 1 || genuine_.empty()) {  // a proper header, then noise

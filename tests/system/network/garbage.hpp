@@ -13,14 +13,12 @@ using Packet = std::vector<std::uint8_t>;
 [[nodiscard]] std::vector<Packet> capture_rtps(const std::vector<std::uint16_t>& ports,
                                                std::chrono::milliseconds duration);
 
-/// A packet that ends a program of Fast DDS 2.9.1 whoever sends it: a statistics sub-message that
-/// is not the last of its packet fails an assertion (docs/security.md).
+/// A packet that ends a program of bare Fast DDS 2.9.1 whoever sends it: a statistics sub-message
+/// that is not the last of its packet fails an assertion.
 [[nodiscard]] Packet deadly_packet();
-[[nodiscard]] bool is_deadly(const Packet& packet);
 
-/// What somebody may throw at an open port, but for packets known to be deadly: noise, noise behind
-/// a proper header, and genuine packets cut short, with bits flipped, lengths changed, pieces
-/// swapped.
+/// What somebody may throw at an open port: noise, noise behind a proper header, and genuine
+/// packets cut short, with bits flipped, lengths changed, pieces swapped.
 class Garbage {
  public:
   Garbage(std::vector<Packet> genuine, std::uint64_t seed);
@@ -30,7 +28,6 @@ class Garbage {
   [[nodiscard]] std::size_t below(std::size_t limit);
   [[nodiscard]] Packet noise(std::size_t longest);
   [[nodiscard]] Packet mutated();
-  [[nodiscard]] Packet any();
 
   std::vector<Packet> genuine_;
   std::mt19937_64 random_;

@@ -17,7 +17,6 @@ using test::draw_map;
 using test::draw_room;
 using test::kRobotFootprint;
 using test::kTurningRadius;
-constexpr double kPi = std::numbers::pi;
 
 class PathPlannerTest : public testing::Test {
  protected:
@@ -69,7 +68,7 @@ TEST_F(PathPlannerTest, DrivesStraightToAGoalAhead) {
 
 TEST_F(PathPlannerTest, PosesAreCloseTogether) {
   use(draw_room());
-  const auto result = plan({1.5, 1.5, 0.0}, {4.0, 3.5, kPi / 2});
+  const auto result = plan({1.5, 1.5, 0.0}, {4.0, 3.5, std::numbers::pi / 2});
   ASSERT_TRUE(result);
   for (std::size_t i = 1; i < result->poses.size(); ++i) {
     EXPECT_LE(distance(result->poses[i - 1], result->poses[i]), 0.05 + 1e-6);
@@ -78,7 +77,7 @@ TEST_F(PathPlannerTest, PosesAreCloseTogether) {
 
 TEST_F(PathPlannerTest, TurnsRoundInSeveralMovesWhereTheGoalIsBehind) {
   use(draw_room());
-  const auto result = plan({2.5, 2.5, 0.0}, {2.5, 2.5, -kPi});
+  const auto result = plan({2.5, 2.5, 0.0}, {2.5, 2.5, -std::numbers::pi});
   ASSERT_TRUE(result);
   expect_drivable(*result);
   EXPECT_GE(count_cusps(*result), 1);
@@ -87,7 +86,7 @@ TEST_F(PathPlannerTest, TurnsRoundInSeveralMovesWhereTheGoalIsBehind) {
 
 TEST_F(PathPlannerTest, ArrivesOnAStraightLineWhereThereIsRoom) {
   use(draw_room());
-  const auto result = plan({1.2, 1.2, kPi / 2}, {4.2, 2.5, 0.0});
+  const auto result = plan({1.2, 1.2, std::numbers::pi / 2}, {4.2, 2.5, 0.0});
   ASSERT_TRUE(result);
   const Pose2 goal = result->poses.back();
   double straight = 0.0;
@@ -110,7 +109,7 @@ TEST_F(PathPlannerTest, KeepsTheFootprintFreeAllTheWay) {
                 "#.....#....#",  //
                 "#.....#....#",  //
                 "############"}));
-  const auto result = plan({1.5, 1.5, kPi / 2}, {4.5, 1.8, -kPi / 2});
+  const auto result = plan({1.5, 1.5, std::numbers::pi / 2}, {4.5, 1.8, -std::numbers::pi / 2});
   ASSERT_TRUE(result);
   expect_drivable(*result);
   const CollisionChecker bare(Footprint(kRobotFootprint), 0.05);
@@ -132,7 +131,7 @@ TEST_F(PathPlannerTest, DoesNotGoThroughAGapNarrowerThanTheRobot) {
                 "#..............#",  //
                 "#..............#",  //
                 "################"}));
-  const auto result = plan({1.75, 1.5, kPi / 2}, {1.75, 4.0, kPi / 2});
+  const auto result = plan({1.75, 1.5, std::numbers::pi / 2}, {1.75, 4.0, std::numbers::pi / 2});
   ASSERT_TRUE(result);
   EXPECT_GT(result->length, 8.0);
 }
@@ -195,7 +194,7 @@ TEST_F(PathPlannerTest, ShowsProgressDuringALongSearch) {
   EXPECT_GE(signs, 1);
   const int of_an_easy_search = std::exchange(signs, 0);
   // Backwards into a corner, turned round: hundreds of states.
-  (void)plan({1.2, 1.2, 0.0}, {1.2, 3.8, -kPi / 2.0});
+  (void)plan({1.2, 1.2, 0.0}, {1.2, 3.8, -std::numbers::pi / 2.0});
   EXPECT_GT(signs, of_an_easy_search);
 }
 

@@ -10,23 +10,23 @@
 namespace coop::global_planner {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(ReedsShepp, DrivesStraightAheadAndStraightBack) {
   const ReedsShepp curves(0.8);
   EXPECT_NEAR(curves.distance({0, 0, 0}, {3, 0, 0}), 3.0, 1e-9);
-  EXPECT_NEAR(curves.distance({1, 1, kPi / 2}, {1, -1, kPi / 2}), 2.0, 1e-9);
+  EXPECT_NEAR(curves.distance({1, 1, std::numbers::pi / 2}, {1, -1, std::numbers::pi / 2}), 2.0,
+              1e-9);
 }
 
 TEST(ReedsShepp, QuarterCircleIsOneArc) {
   const ReedsShepp curves(2.0);
-  EXPECT_NEAR(curves.distance({0, 0, 0}, {2, 2, kPi / 2}), kPi, 1e-9);
+  EXPECT_NEAR(curves.distance({0, 0, 0}, {2, 2, std::numbers::pi / 2}), std::numbers::pi, 1e-9);
 }
 
 TEST(ReedsShepp, TurnsRoundOnTheSpotInThreeArcs) {
   // The well-known three-point turn by 180 degrees: pi radii long, each arc a third of a half
   // circle.
-  EXPECT_NEAR(ReedsShepp(1.0).distance({0, 0, 0}, {0, 0, kPi}), kPi, 1e-9);
+  EXPECT_NEAR(ReedsShepp(1.0).distance({0, 0, 0}, {0, 0, std::numbers::pi}), std::numbers::pi,
+              1e-9);
 }
 
 TEST(ReedsShepp, EveryWordEndsAtTheGoalAndRespectsTheRadius) {
@@ -35,9 +35,9 @@ TEST(ReedsShepp, EveryWordEndsAtTheGoalAndRespectsTheRadius) {
   for (int trial = 0; trial < 5000; ++trial) {
     const double extent = trial % 2 == 0 ? 1.5 : 8.0;
     const Pose2 from{random.uniform(-extent, extent), random.uniform(-extent, extent),
-                     random.uniform(-kPi, kPi)};
+                     random.uniform(-std::numbers::pi, std::numbers::pi)};
     const Pose2 to{random.uniform(-extent, extent), random.uniform(-extent, extent),
-                   random.uniform(-kPi, kPi)};
+                   random.uniform(-std::numbers::pi, std::numbers::pi)};
     ReedsShepp::Words words;
     curves.connect(from, to, words);
     ASSERT_GT(words.count, 0U);
@@ -56,7 +56,8 @@ TEST(ReedsShepp, DistanceIsSymmetricAndObeysTheTriangleInequality) {
   RandomStream random(6, "reeds_shepp_test");
   const ReedsShepp curves(1.0);
   const auto pose = [&random] {
-    return Pose2{random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-kPi, kPi)};
+    return Pose2{random.uniform(-3, 3), random.uniform(-3, 3),
+                 random.uniform(-std::numbers::pi, std::numbers::pi)};
   };
   for (int trial = 0; trial < 3000; ++trial) {
     const Pose2 a = pose();

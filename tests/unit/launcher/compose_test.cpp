@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 const std::filesystem::path kRoot = COOP_SOURCE_DIR;
 
-PlannedComponent component(const std::string& name) {
+PlannedComponent service_of(const std::string& name) {
   PlannedComponent planned;
   planned.name = name;
   planned.where = "x.yaml:3";
@@ -28,7 +28,7 @@ PlannedComponent component(const std::string& name) {
 class ComposeTest : public ::testing::Test {
  protected:
   ComposeTest() {
-    plan_.components = {component("simulator"), component("dwa")};
+    plan_.components = {service_of("simulator"), service_of("dwa")};
     plan_.components[1].after = {0};
   }
   PlannedComponent& dwa() { return plan_.components[1]; }
@@ -115,7 +115,7 @@ TEST_F(ComposeTest, OverridesNameTheServicesTheyAreFor) {
                           "${COOP_KEYS:-./keys}/dwa:/etc/coop/keys/dwa:ro"));
   EXPECT_EQ(override_services("security")["dwa"]["environment"]["COOP_DDS"].as<std::string>(),
             "security=true keys=/etc/coop/keys ${COOP_DDS:-}");
-  plan_.components.push_back(component("lidar_driver"));
+  plan_.components.push_back(service_of("lidar_driver"));
   EXPECT_FALSE(override_services("hardware")["dwa"]);
   EXPECT_THAT(texts(override_services("hardware")["lidar_driver"]["devices"]),
               ElementsAre("${COOP_LIDAR_DEVICE:-/dev/null}:/dev/lidar"));

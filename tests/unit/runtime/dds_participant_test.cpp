@@ -1,5 +1,6 @@
 #include "runtime/dds_participant.hpp"
 
+#include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,13 +17,19 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// The interfaces a participant keeps to; none: all of them.
-std::vector<std::string> interfaces() {
-  const auto qos = participant_qos(
-      {}, {.domain = 0, .participant_name = "x", .partition = {}, .reliable_streams = false});
-  const auto udp = std::dynamic_pointer_cast<eprosima::fastdds::rtps::UDPv4TransportDescriptor>(
+/// The interfaces a participant keeps to, behind the guard of its packets; none: all of them.
+std::vector<std::string> interfaces(const eprosima::fastdds::dds::DomainParticipantQos& qos) {
+  namespace rtps = eprosima::fastdds::rtps;
+  const auto guard = std::dynamic_pointer_cast<rtps::ChainingTransportDescriptor>(
       qos.transport().user_transports.at(0));
+  const auto udp =
+      std::dynamic_pointer_cast<rtps::UDPv4TransportDescriptor>(guard->low_level_descriptor);
   return udp->interfaceWhiteList;
+}
+
+std::vector<std::string> interfaces() {
+  return interfaces(participant_qos(
+      {}, {.domain = 0, .participant_name = "x", .partition = {}, .reliable_streams = false}));
 }
 
 TEST(ParticipantQos, keeps_to_this_machine_only_where_the_environment_says_so) {
@@ -60,10 +67,7 @@ std::string property(const eprosima::fastdds::dds::DomainParticipantQos& qos,
 }
 
 TEST(ParticipantQos, keeps_to_the_interfaces_named_or_says_which_there_are) {
-  const auto named = qos_of({"interfaces=[lo]"});
-  const auto udp = std::dynamic_pointer_cast<eprosima::fastdds::rtps::UDPv4TransportDescriptor>(
-      named.transport().user_transports.at(0));
-  EXPECT_THAT(udp->interfaceWhiteList, ElementsAre("127.0.0.1"));
+  EXPECT_THAT(interfaces(qos_of({"interfaces=[lo]"})), ElementsAre("127.0.0.1"));
   EXPECT_THAT(error_of({"interfaces=[barn0]"}),
               HasSubstr("dds.interfaces: no interface 'barn0' here; there are: "));
 }

@@ -14,7 +14,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-std::string error_of(const std::vector<std::string>& assignments) {
+std::string complaint_about(const std::vector<std::string>& assignments) {
   try {
     (void)read_dds_settings(assignments);
   } catch (const config::Error& problem) {
@@ -56,22 +56,25 @@ TEST_F(DdsSettingsTest, the_command_line_goes_over_the_environment_key_by_key) {
 }
 
 TEST_F(DdsSettingsTest, what_is_wrong_is_one_line_that_says_where_and_what) {
-  EXPECT_EQ(error_of({"discovry=peers"}),
+  EXPECT_EQ(complaint_about({"discovry=peers"}),
             "--dds: unknown key 'discovry'; did you mean 'discovery'?");
-  EXPECT_THAT(error_of({"discovery=magic"}), HasSubstr("--dds: discovery: expected one of"));
-  EXPECT_THAT(error_of({"discovery"}), HasSubstr("expected key=value"));
+  EXPECT_THAT(complaint_about({"discovery=magic"}), HasSubstr("--dds: discovery: expected one of"));
+  EXPECT_THAT(complaint_about({"discovery"}), HasSubstr("expected key=value"));
   ::setenv("COOP_DDS", "transport=pigeon", 1);
-  EXPECT_THAT(error_of({}), HasSubstr("COOP_DDS: transport: expected one of"));
+  EXPECT_THAT(complaint_about({}), HasSubstr("COOP_DDS: transport: expected one of"));
 }
 
 TEST_F(DdsSettingsTest, settings_that_do_not_go_together_are_refused) {
-  EXPECT_THAT(error_of({"discovery=peers"}), HasSubstr("dds.peers: expected the addresses"));
-  EXPECT_THAT(error_of({"peers=[10.0.0.2]"}), HasSubstr("with discovery: peers only"));
-  EXPECT_THAT(error_of({"discovery=server"}), HasSubstr("dds.server: expected ADDRESS:PORT"));
-  EXPECT_THAT(error_of({"discovery=server", "server=10.0.0.1"}), HasSubstr("got '10.0.0.1'"));
-  EXPECT_THAT(error_of({"discovery=server", "server=10.0.0.1:99999"}), HasSubstr("ADDRESS:PORT"));
-  EXPECT_THAT(error_of({"server=10.0.0.1:11811"}), HasSubstr("with discovery: server only"));
-  EXPECT_THAT(error_of({"security=on"}), HasSubstr("dds.keys: expected a folder"));
+  EXPECT_THAT(complaint_about({"discovery=peers"}), HasSubstr("dds.peers: expected the addresses"));
+  EXPECT_THAT(complaint_about({"peers=[10.0.0.2]"}), HasSubstr("with discovery: peers only"));
+  EXPECT_THAT(complaint_about({"discovery=server"}),
+              HasSubstr("dds.server: expected ADDRESS:PORT"));
+  EXPECT_THAT(complaint_about({"discovery=server", "server=10.0.0.1"}),
+              HasSubstr("got '10.0.0.1'"));
+  EXPECT_THAT(complaint_about({"discovery=server", "server=10.0.0.1:99999"}),
+              HasSubstr("ADDRESS:PORT"));
+  EXPECT_THAT(complaint_about({"server=10.0.0.1:11811"}), HasSubstr("with discovery: server only"));
+  EXPECT_THAT(complaint_about({"security=on"}), HasSubstr("dds.keys: expected a folder"));
 }
 
 }  // namespace
