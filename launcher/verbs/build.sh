@@ -1,5 +1,8 @@
 # What builds Coop in a checkout: packages, configuration, targets. Found nothing to build, it says nothing.
 
+# Benchmarks and experiments are built when they are asked for.
+programs_and_tests=(programs tests_unit tests_component tests_system)
+
 packages_for() { # group...
   local group
   for group in "$@"; do awk -v group="$group" '$1 == group { print $2 }' "$here/cmake/packages.txt"; done

@@ -8,7 +8,8 @@ Develop
   experiment planning [MAP...] [-o DIR]
                         grid planners on the MovingAI maps: optimal lengths, time a query, report;
                         then the speeds of searches and costmaps
-  build [TARGET...]     install what is missing, configure, build (default: programs and tests)
+  build [TARGET...]     install what is missing, configure, build (default: programs and tests;
+                        all: benchmarks and experiments, too)
   install [lint] [package] [ci]
                         install the Debian packages that are missing, those of further tools too
   test [unit|component|system|all] [FILTER]
@@ -24,7 +25,7 @@ COOP_PRESET=debug|asan|tsan|core-only chooses another build than release.
 TEXT
 }
 
-verb_build() { prepare "${@:-all}"; }
+verb_build() { prepare "${@:-${programs_and_tests[@]}}"; }
 verb_install() { need_packages build "$@"; }
 
 sources() { (cd "$here" && find components launcher tests -name '*.cpp' -o -name '*.hpp' | sort); }

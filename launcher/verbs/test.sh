@@ -61,7 +61,7 @@ verb_test() {
   case $label in
     unit | component) prepare "tests_$label" ;;
     system) prepare programs tests_system ;;
-    *) prepare all ;;
+    *) prepare "${programs_and_tests[@]}" ;;
   esac
   sanitizer_settings
   local results=$build/test-results
