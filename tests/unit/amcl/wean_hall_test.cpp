@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "amcl/amcl.hpp"
+#include "support/sanitizer.hpp"
 
 namespace coop::amcl {
 namespace {
@@ -64,6 +65,9 @@ int seeds_that_agree(const Outcome& reference, const OccupancyGrid& map,
 /// odometry. A global run of 200,000 particles is no reference here: it may settle on a wrong
 /// corridor as well.
 TEST(WeanHall, TheFirstDriveEndsWhereManyParticlesTrackedFromItsStartEnd) {
+  if (coop::test::kThreadSanitizer) {
+    GTEST_SKIP() << "not run: one thread, and minutes under ThreadSanitizer";
+  }
   const auto map = wean::map();
   const auto log = wean::log("robotdata1.log.gz");
   if (!map || !log) GTEST_SKIP() << "not run: the Wean Hall recordings are absent";
@@ -80,6 +84,9 @@ TEST(WeanHall, TheFirstDriveEndsWhereManyParticlesTrackedFromItsStartEnd) {
 }
 
 TEST(WeanHall, TheSecondDriveEndsWhereAGlobalRunOfManyParticlesEnds) {
+  if (coop::test::kThreadSanitizer) {
+    GTEST_SKIP() << "not run: one thread, and minutes under ThreadSanitizer";
+  }
   const auto map = wean::map();
   const auto log = wean::log("robotdata2.log.gz");
   if (!map || !log) GTEST_SKIP() << "not run: the Wean Hall recordings are absent";
