@@ -6,6 +6,9 @@
 #include <fastrtps/utils/IPLocator.h>
 
 #include <cstdlib>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <stdexcept>
 #include <string_view>
 
 #include "core/config/error.hpp"
@@ -24,6 +27,8 @@ namespace {
 constexpr std::uint32_t kSocketBuffer = 4U << 20U;
 constexpr std::uint32_t kSharedSegment = 8U << 20U;
 constexpr const char* kLoopback = "127.0.0.1";
+constexpr std::uint32_t kSoonAnnouncements = 12;
+const Duration_t kSoonPeriod{0, 40'000'000};
 
 /// As for ROS 2's programs.
 bool stays_on_this_machine() {
@@ -40,7 +45,9 @@ std::vector<std::string> own_addresses(const DdsSettings& settings) {
   return addresses;
 }
 
-void add_transports(const DdsSettings& settings, dds::DomainParticipantQos& qos) {
+void add_transports(const DdsSettings& settings,
+                    const std::shared_ptr<Introductions>& introductions,
+                    dds::DomainParticipantQos& qos) {
   qos.transport().use_builtin_transports = false;
   if (settings.transport == "shm") {
     auto shared = std::make_shared<eprosima::fastdds::rtps::SharedMemTransportDescriptor>();
@@ -54,7 +61,7 @@ void add_transports(const DdsSettings& settings, dds::DomainParticipantQos& qos)
   if (settings.discovery == "peers") {
     udp->maxInitialPeersRange = static_cast<std::uint32_t>(settings.peer_participants);
   }
-  qos.transport().user_transports.push_back(guarded(udp));
+  qos.transport().user_transports.push_back(guarded(udp, introductions));
 }
 
 /// Port 0: Fast DDS tries the usual ports of the domain, as many as the transport's range.
@@ -89,6 +96,9 @@ void join_server(const DdsOptions& options, dds::DomainParticipantQos& qos) {
 }
 
 void add_security(const DdsOptions& options, dds::DomainParticipantQos& qos) {
+  // The first announcement is not sent (Introductions): the next comes soon.
+  auto& announcements = qos.wire_protocol().builtin.discovery_config.initial_announcements;
+  announcements = {kSoonAnnouncements, kSoonPeriod};
   const KeyFiles files(options.settings.keys, options.participant_name);
   const auto add = [&qos](const std::string& name, const std::string& value) {
     qos.properties().properties().emplace_back(name, value);
@@ -115,11 +125,11 @@ void add_security(const DdsOptions& options, dds::DomainParticipantQos& qos) {
 
 }  // namespace
 
-dds::DomainParticipantQos participant_qos(dds::DomainParticipantQos base,
-                                          const DdsOptions& options) {
+dds::DomainParticipantQos participant_qos(dds::DomainParticipantQos base, const DdsOptions& options,
+                                          const std::shared_ptr<Introductions>& introductions) {
   const DdsSettings& settings = options.settings;
   base.name(options.participant_name);
-  add_transports(settings, base);
+  add_transports(settings, introductions, base);
   auto& discovery = base.wire_protocol().builtin.discovery_config;
   discovery.leaseDuration = Duration_t(2, 0);
   discovery.leaseDuration_announcementperiod = Duration_t(0, 660'000'000);
@@ -127,6 +137,23 @@ dds::DomainParticipantQos participant_qos(dds::DomainParticipantQos base,
   if (settings.discovery == "server") join_server(options, base);
   if (settings.security) add_security(options, base);
   return base;
+}
+
+dds::DomainParticipant* create_participant(const DdsOptions& options,
+                                           dds::DomainParticipantListener* listener) {
+  auto* factory = dds::DomainParticipantFactory::get_instance();
+  factory->load_profiles();
+  const auto introductions =
+      options.settings.security ? std::make_shared<Introductions>() : nullptr;
+  auto qos = participant_qos(factory->get_default_participant_qos(), options, introductions);
+  // No status of endpoints for the listener: they have listeners of their own.
+  dds::DomainParticipant* participant = factory->create_participant(
+      static_cast<dds::DomainId_t>(options.domain), qos, listener, dds::StatusMask::none());
+  if (participant == nullptr) {
+    throw std::runtime_error("DDS: cannot join domain " + std::to_string(options.domain));
+  }
+  if (introductions) introductions->may_announce = true;
+  return participant;
 }
 
 }  // namespace coop::runtime

@@ -1,13 +1,28 @@
 #pragma once
+#include <fastdds/dds/core/status/StatusMask.hpp>
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 
 #include "runtime/dds_transport.hpp"
 
+namespace eprosima::fastdds::dds {
+class DomainParticipant;
+class DomainParticipantListener;
+}  // namespace eprosima::fastdds::dds
+
 namespace coop::runtime {
+
+struct Introductions;
 
 /// The one place where settings become a participant: transports, discovery, lease, security.
 /// Throws config::Error for an interface or host that is not there.
 [[nodiscard]] eprosima::fastdds::dds::DomainParticipantQos participant_qos(
-    eprosima::fastdds::dds::DomainParticipantQos base, const DdsOptions& options);
+    eprosima::fastdds::dds::DomainParticipantQos base, const DdsOptions& options,
+    const std::shared_ptr<Introductions>& introductions = nullptr);
+
+/// A participant of that description, to be deleted through the factory; with security, one that
+/// misses nobody (packet_guard.hpp). Throws std::runtime_error where none can be made.
+[[nodiscard]] eprosima::fastdds::dds::DomainParticipant* create_participant(
+    const DdsOptions& options,
+    eprosima::fastdds::dds::DomainParticipantListener* listener = nullptr);
 
 }  // namespace coop::runtime

@@ -229,15 +229,8 @@ class DdsReader : public Reader {
 
 }  // namespace
 
-DdsTransport::Impl::Impl(const DdsOptions& wanted) : options(wanted) {
-  auto* factory = dds::DomainParticipantFactory::get_instance();
-  factory->load_profiles();
-  participant =
-      factory->create_participant(static_cast<dds::DomainId_t>(options.domain),
-                                  participant_qos(factory->get_default_participant_qos(), options));
-  if (participant == nullptr) {
-    throw_dds("cannot join domain " + std::to_string(options.domain));
-  }
+DdsTransport::Impl::Impl(const DdsOptions& wanted)
+    : options(wanted), participant(create_participant(wanted)) {
   dds::PublisherQos publisher_qos = participant->get_default_publisher_qos();
   dds::SubscriberQos subscriber_qos = participant->get_default_subscriber_qos();
   if (!options.partition.empty()) {

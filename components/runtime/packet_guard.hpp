@@ -1,6 +1,8 @@
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <span>
 
 namespace eprosima::fastdds::rtps {
@@ -15,9 +17,26 @@ namespace coop::runtime {
 /// come earlier.
 [[nodiscard]] bool is_harmless(std::span<const std::uint8_t> packet);
 
+/// Whether a harmless packet makes a participant known or carries a handshake of DDS Security.
+[[nodiscard]] bool introduces(std::span<const std::uint8_t> packet);
+
+/// How Fast DDS 2.9.1 with security is kept from missing somebody; one for all transports of a
+/// participant.
+struct Introductions {
+  /// Packets that introduce are handled one at a time. Two that come at once, by multicast and by
+  /// unicast, are mixed up (SecurityManager::match_builtin_endpoints fills members without a lock),
+  /// and one of the two senders is never let in; and a handshake is forgotten that comes while its
+  /// sender is being looked at, until it is sent again a second later.
+  std::mutex mutex;
+  /// Until then the participant does not announce itself: it drops what comes before it is made,
+  /// and busy machines answer sooner.
+  std::atomic<bool> may_announce = false;
+};
+
 /// A transport that drops packets which are not harmless before anything else looks at them. Set up
-/// `low_level` whole before: its limits are copied here.
+/// `low_level` whole before: its limits are copied here. `introductions` may be none.
 [[nodiscard]] std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> guarded(
-    std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> low_level);
+    std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> low_level,
+    std::shared_ptr<Introductions> introductions = nullptr);
 
 }  // namespace coop::runtime

@@ -249,16 +249,7 @@ struct RawParticipant::Impl {
 
 RawParticipant::RawParticipant(const DdsOptions& options, std::function<void()> on_news)
     : impl_(std::make_unique<Impl>(std::move(on_news))) {
-  auto* factory = dds::DomainParticipantFactory::get_instance();
-  factory->load_profiles();
-  // No status of endpoints for the listener: they have listeners of their own.
-  impl_->participant =
-      factory->create_participant(static_cast<dds::DomainId_t>(options.domain),
-                                  participant_qos(factory->get_default_participant_qos(), options),
-                                  &impl_->listener, dds::StatusMask::none());
-  if (impl_->participant == nullptr) {
-    throw std::runtime_error("DDS: cannot join domain " + std::to_string(options.domain));
-  }
+  impl_->participant = create_participant(options, &impl_->listener);
   dds::PublisherQos publisher_qos = impl_->participant->get_default_publisher_qos();
   dds::SubscriberQos subscriber_qos = impl_->participant->get_default_subscriber_qos();
   if (!options.partition.empty()) {

@@ -1,7 +1,15 @@
 #include "runtime/packet_guard.hpp"
 
+#include <fastdds/rtps/network/SenderResource.h>
+#include <fastdds/rtps/transport/ChainingTransport.h>
+#include <fastdds/rtps/transport/TransportReceiverInterface.h>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <thread>
 #include <vector>
 
 namespace coop::runtime {
@@ -80,6 +88,94 @@ TEST(PacketGuard, NoMessageCutAnywhereHidesStatistics) {
     const bool ends_with_them = size == 20 + 12 + 4 + 56;
     EXPECT_EQ(is_harmless(std::span(whole).first(size)), holds_none || ends_with_them) << size;
   }
+}
+
+Bytes data_of(std::array<std::uint8_t, 4> writer, std::uint8_t kind = kData) {
+  Bytes bytes = submessage(kind, 24, 24);
+  std::ranges::copy(writer, bytes.begin() + 12);
+  return bytes;
+}
+
+TEST(PacketGuard, AnnouncementsAndHandshakesIntroduceAndNothingElseDoes) {
+  EXPECT_TRUE(introduces(message() + submessage(kInfoTimestamp, 8, 8) + data_of({0, 1, 0, 0xc2})));
+  EXPECT_TRUE(introduces(message() + data_of({0, 0, 2, 3}) + data_of({0, 2, 1, 0xc3})));
+  EXPECT_FALSE(introduces(message() + data_of({0, 0, 2, 3})));
+  EXPECT_FALSE(introduces(message() + data_of({0, 1, 0, 0xc2}, kStatistics)));
+  EXPECT_FALSE(introduces(message() + submessage(kData, 8, 8)));
+  EXPECT_FALSE(introduces(message()));
+}
+
+using eprosima::fastdds::rtps::ChainingTransportDescriptor;
+using eprosima::fastdds::rtps::TransportReceiverInterface;
+using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
+using eprosima::fastrtps::rtps::Locator_t;
+using eprosima::fastrtps::rtps::LocatorsIterator;
+using eprosima::fastrtps::rtps::octet;
+using eprosima::fastrtps::rtps::SenderResource;
+
+/// Between Fast DDS and a socket, with both ends in the test's hands.
+class GuardBetween : public ::testing::Test, private TransportReceiverInterface {
+ protected:
+  class Wire : public SenderResource {
+   public:
+    Wire() : SenderResource(LOCATOR_KIND_UDPv4) {
+      send_lambda_ = [this](const octet*, std::uint32_t, LocatorsIterator*, LocatorsIterator*,
+                            const std::chrono::steady_clock::time_point&) {
+        ++sent;
+        return true;
+      };
+    }
+    int sent = 0;
+  };
+
+  int sent(const Bytes& packet) {
+    Wire wire;
+    EXPECT_TRUE(guard_->send(&wire, packet.data(), static_cast<std::uint32_t>(packet.size()),
+                             nullptr, nullptr, std::chrono::steady_clock::now()));
+    return wire.sent;
+  }
+  void receive(const Bytes& packet) {
+    guard_->receive(this, packet.data(), static_cast<std::uint32_t>(packet.size()), {}, {});
+  }
+  void OnDataReceived(const octet*, const std::uint32_t, const Locator_t&,
+                      const Locator_t&) override {
+    const int now = ++inside_;
+    most_inside_ = std::max(most_inside_.load(), now);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the handling, not a wait
+    --inside_;
+  }
+
+  std::shared_ptr<Introductions> introductions_ = std::make_shared<Introductions>();
+  std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> descriptor_ =
+      guarded(std::make_shared<UDPv4TransportDescriptor>(), introductions_);
+  std::unique_ptr<eprosima::fastdds::rtps::ChainingTransport> guard_{
+      dynamic_cast<eprosima::fastdds::rtps::ChainingTransport*>(descriptor_->create_transport())};
+  std::atomic<int> inside_ = 0;
+  std::atomic<int> most_inside_ = 0;
+};
+
+TEST_F(GuardBetween, AParticipantIsNotAnnouncedBeforeItMayBe) {
+  const Bytes announcement = message() + data_of({0, 1, 0, 0xc2});
+  const Bytes other = message() + data_of({0, 0, 2, 3});
+  EXPECT_EQ(sent(announcement), 0);
+  EXPECT_EQ(sent(other), 1);
+  introductions_->may_announce = true;
+  EXPECT_EQ(sent(announcement), 1);
+}
+
+TEST_F(GuardBetween, ThoseWhoIntroduceAreHandledOneAtATimeAndAllOthersAreNotHeldUp) {
+  const auto from_two_threads = [this](const Bytes& packet) {
+    most_inside_ = 0;
+    const auto many = [&] {
+      for (int i = 0; i < 20; ++i) receive(packet);
+    };
+    std::thread other(many);
+    many();
+    other.join();
+    return most_inside_.load();
+  };
+  EXPECT_EQ(from_two_threads(message() + data_of({0, 1, 0, 0xc2})), 1);
+  EXPECT_EQ(from_two_threads(message() + data_of({0, 0, 2, 3})), 2);
 }
 
 }  // namespace
