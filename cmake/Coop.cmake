@@ -20,8 +20,9 @@ if(COOP_SANITIZER)
   target_link_options(coop_options INTERFACE -fsanitize=${COOP_SANITIZER})
 endif()
 
-# What a test checks is in the libraries; the test's own text need not be fast, but quick to compile.
-set(coop_test_options $<$<CONFIG:Release>:-O1>)
+# What a test checks is in the libraries, and what a program does too; their own text need not be fast, but quick to compile.
+set(coop_test_options $<$<CONFIG:Release>:-O0>)
+set(coop_front_options $<$<CONFIG:Release>:-O1>)
 include(CoopPrecompiled)
 
 # All executables of the robot, without the tests; all libraries; and the tests of each label.
@@ -49,6 +50,22 @@ function(coop_library name)
   add_dependencies(libraries coop_${name})
 endfunction()
 
+# coop_program(NAME SOURCES ... [LINK ...]): an executable that is installed beside the components. Its sources read the command line.
+function(coop_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE coop_options ${ARG_LINK})
+  target_compile_options(${name} PRIVATE ${coop_front_options})
+  install(TARGETS ${name} RUNTIME DESTINATION lib/coop)
+  add_dependencies(programs ${name})
+endfunction()
+
+# coop_front(SOURCES ...): sources of a library that read the command line. CLI11 is all templates: at -O3 each takes the
+# compiler up to ten seconds.
+function(coop_front)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${coop_front_options}" SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
+
 # coop_node(NAME [SOURCES ...] [LINK ...]): the shell of a component in node/: library coop_NAME_node (for component
 # tests) and executable NAME. Skipped in a core-only build.
 function(coop_node name)
@@ -59,11 +76,7 @@ function(coop_node name)
   add_library(coop_${name}_node STATIC ${ARG_SOURCES})
   target_link_libraries(coop_${name}_node PUBLIC coop_options coop_runtime coop_conversions ${ARG_LINK})
   coop_use_precompiled(coop_${name}_node library)
-  add_executable(${name} node/main.cpp)
-  target_link_libraries(${name} PRIVATE coop_${name}_node)
-  coop_use_precompiled(${name} library)
-  install(TARGETS ${name} RUNTIME DESTINATION lib/coop)
-  add_dependencies(programs ${name})
+  coop_program(${name} SOURCES node/main.cpp LINK coop_${name}_node)
 endfunction()
 
 # coop_test(NAME SOURCES ... [LINK ...] [LABELS unit|component|system] [SEPARATE]): a GoogleTest program NAME.
