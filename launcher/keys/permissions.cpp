@@ -15,6 +15,8 @@ constexpr std::string_view kLockstep = "lockstep_";
 /// Each follower has a topic of its own below it.
 constexpr std::string_view kTick = "lockstep_tick";
 constexpr const char* kEverything = "rt/*";
+/// The component that hears everything, without being told what there is.
+constexpr std::string_view kRecorder = "record";
 
 std::string on_wire(std::string_view topic) {
   return "rt/" + std::string(topic);
@@ -73,7 +75,8 @@ std::string domains_xml(const System& system) {
 Rights rights_of(const Participant& participant) {
   Rights rights;
   const bool hears_everything =
-      participant.role == Role::kPerson || participant.role == Role::kObserver;
+      participant.role == Role::kPerson || participant.role == Role::kObserver ||
+      (participant.role == Role::kComponent && participant.program == kRecorder);
   for (const runtime::TopicInfo& topic : runtime::all_topics()) {
     if (topic.name.starts_with(kLockstep)) {
       if (participant.lockstep && participant.role == Role::kComponent) {

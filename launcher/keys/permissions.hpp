@@ -10,7 +10,7 @@ using Date = std::chrono::system_clock::time_point;
 /// Somebody who takes part in a system.
 struct Participant {
   enum class Role {
-    kComponent,  ///< the topics of its program, and those that concern all
+    kComponent,  ///< the topics of its program, and those that concern all; the recorder hears all
     kLauncher,   ///< the topics it is named for, none of those that concern all
     kPerson,     ///< gives the commands of `coop`, hears everything
     kObserver    ///< hears everything, tells its own health

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "capture/mcap/writer.hpp"
@@ -52,6 +53,18 @@ class CaptureInOtherHands : public testing::Test {
     EXPECT_EQ(report["messages"], messages);
     EXPECT_EQ(report["profile"], "ros2");
     EXPECT_GT(report["compared"], messages);
+  }
+
+  /// Part of a capture, by the options of `mcap filter`.
+  fs::path part_of(const fs::path& capture, const std::string& name,
+                   const std::vector<std::string>& options) {
+    const fs::path part = folder_.path() / (name + ".mcap");
+    std::vector<std::string> arguments{"filter", capture.string(), "-o", part.string()};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    Program filter(COOP_BIN_DIR "/mcap", arguments, folder_.path() / "filter");
+    const auto status = filter.wait();
+    EXPECT_TRUE(status && status->clean()) << filter.output();
+    return part;
   }
 
   TemporaryFolder folder_;
@@ -110,6 +123,88 @@ TEST_F(CaptureInOtherHands, the_recorded_bag_has_the_values_they_find) {
   EXPECT_EQ((*report)["topics"]["/scan"]["messages"], 357);
   EXPECT_EQ((*report)["topics"]["/odom"]["messages"], 920);
   EXPECT_EQ((*report)["topics"]["/tf"]["messages"], 953);
+}
+
+/// Topics that have messages, and how many, as we count them.
+std::map<std::string, std::uint64_t> counts_of(const fs::path& capture) {
+  const mcap::Reader reader(capture);
+  EXPECT_TRUE(reader.summary().complete) << reader.summary().defect;
+  std::map<std::string, std::uint64_t> counts;
+  const auto& by_channel = reader.summary().statistics->channel_message_counts;
+  for (const auto& [id, channel] : reader.summary().channels) {
+    const auto found = by_channel.find(id);
+    if (found != by_channel.end() && found->second > 0) counts[channel.topic] += found->second;
+  }
+  return counts;
+}
+
+void expect_their_counts(const json& report, const fs::path& capture) {
+  std::uint64_t all = 0;
+  const auto counts = counts_of(capture);
+  for (const auto& [topic, count] : counts) {
+    all += count;
+    ASSERT_TRUE(report["topics"].contains(topic)) << topic;
+    EXPECT_EQ(report["topics"][topic]["messages"], count) << topic;
+  }
+  EXPECT_EQ(report["differences"], json::array());
+  EXPECT_EQ(report["topics"].size(), counts.size());
+  EXPECT_EQ(report["messages"], all);
+}
+
+TEST_F(CaptureInOtherHands, a_mission_of_the_whole_robot_has_every_topic_with_its_values) {
+  const fs::path launch = fs::path(COOP_SOURCE_DIR) / "config/launch/collect.yaml";
+  RunningSystem system(launch, {"--until", "mission-done", "--set", "lockstep=true", "--set",
+                                "rate=0", "--set", "record.last=0", "--set", "record.exclude=[]",
+                                "--set", "world=" COOP_SOURCE_DIR "/tests/data/two_eggs.world.yaml",
+                                "--set", "sequencer.mission.expected_eggs=2"});
+  const auto status = system.launcher().wait(std::chrono::minutes(5));
+  ASSERT_TRUE(status && status->clean()) << system.launcher().output();
+  const fs::path folder = system.folder() / "runs/latest/captures";
+  ASSERT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
+  const fs::path capture = fs::directory_iterator(folder)->path();
+  const auto recorded = counts_of(capture);
+  for (const char* topic : {"/clock",
+                            "/tf",
+                            "/tf_static",
+                            "/odom",
+                            "/imu",
+                            "/scan",
+                            "/map",
+                            "/amcl_pose",
+                            "/particle_cloud",
+                            "/camera/image",
+                            "/camera/depth",
+                            "/camera/camera_info",
+                            "/eggs",
+                            "/goal_pose",
+                            "/plan",
+                            "/global_costmap",
+                            "/local_plan",
+                            "/local_costmap",
+                            "/dwa_candidates",
+                            "/cmd_vel",
+                            "/navigation_status",
+                            "/pick",
+                            "/pick_result",
+                            "/joint_states",
+                            "/mission_status",
+                            "/component_status",
+                            "/ground_truth",
+                            "/world"}) {
+    EXPECT_TRUE(recorded.contains(topic)) << topic;
+  }
+  // Pictures are many numbers: a second of them, and the whole mission of everything else.
+  const fs::path words = part_of(capture, "words", {"--exclude", "/camera/image", "/camera/depth"});
+  const auto report = checked(words);
+  if (!report) GTEST_SKIP() << "not run: " << why_;
+  expect_their_counts(*report, words);
+  EXPECT_EQ((*report)["topics"].size() + 2, recorded.size());
+  const fs::path second = part_of(capture, "second", {"--start", "20", "--end", "21"});
+  const auto pictures = checked(second);
+  ASSERT_TRUE(pictures);
+  expect_their_counts(*pictures, second);
+  EXPECT_GE((*pictures)["topics"]["/camera/image"]["messages"], 4);
+  EXPECT_GE((*pictures)["topics"]["/camera/depth"]["messages"], 4);
 }
 
 }  // namespace

@@ -37,18 +37,23 @@ void CaptureSaver::heartbeat(const Bytes& bytes) {
   // The states of the message are counted as those of the watch.
   const auto state = static_cast<FaultWatch::State>(status.state());
   const auto fault = faults_.heartbeat(status.name(), state, status.detail());
-  if (config_.save_on_fault) plan(fault);
+  if (config_.save_on_fault && !system_stops_) plan(fault);
 }
 
 void CaptureSaver::component_gone(const std::string& component) {
   const auto fault = faults_.gone(component);
-  if (config_.save_on_fault) plan(fault);
+  if (config_.save_on_fault && !system_stops_) plan(fault);
 }
 
 void CaptureSaver::emergency_stop(const Bytes& bytes) {
   coop_msgs::msg::EmergencyStop stop;
-  // The launcher engages it whenever it stops the system: that is no fault.
-  if (!runtime::from_wire(bytes, stop) || stop.source() == "launcher") return;
+  if (!runtime::from_wire(bytes, stop)) return;
+  // The launcher engages it whenever it stops the system, and releases it at the next start. That
+  // is no fault, nor is what becomes of the others then.
+  if (stop.source() == "launcher") {
+    system_stops_ = stop.engaged();
+    return;
+  }
   const auto fault = faults_.emergency_stop(stop.source(), stop.engaged(), stop.reason());
   if (config_.save_on_emergency_stop) plan(fault);
 }

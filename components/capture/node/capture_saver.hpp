@@ -57,6 +57,7 @@ class CaptureSaver {
   std::function<std::filesystem::path()> new_path_;
   runtime::Publisher<coop_msgs::msg::SaveCaptureResult> results_;
   FaultWatch faults_;
+  bool system_stops_ = false;
   std::optional<Save> save_;
 };
 

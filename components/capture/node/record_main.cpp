@@ -43,7 +43,10 @@ int run(int argc, const char* const* argv) {
   describe(app, arguments);
   if (const int code = parse_or_exit_code(app, argc, argv); code != kGoOn) return code;
   CommandLine line(argv[0]);
-  line.pass_on(app.remaining());
+  auto remaining = app.remaining();
+  // It takes part in no tick: what it says is no result of a run.
+  std::erase(remaining, "--trace");
+  line.pass_on(remaining);
   if (!arguments.all) line.set("topics", arguments.topics);
   line.set("exclude", arguments.exclude);
   try {

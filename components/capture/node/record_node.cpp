@@ -17,6 +17,8 @@ using runtime::RawSample;
 namespace {
 
 constexpr auto kTick = std::chrono::milliseconds(200);
+/// That long after a loss the recorder is degraded; the account of it stays in the file.
+constexpr auto kLossIsNews = std::chrono::seconds(10);
 /// Samples that came before the first clock message, at most.
 constexpr std::size_t kMostEarly = 100'000;
 
@@ -126,7 +128,9 @@ TrafficTap::Listener RecordNode::listener() {
           .on_gone =
               [this](const void* writer) {
                 const auto& heard = *static_cast<const Heard*>(writer);
-                if (heard.role == Role::kHeartbeat) saver_.component_gone(heard.component);
+                if (heard.role != Role::kHeartbeat) return;
+                handle_news();  // its last word, a farewell perhaps
+                saver_.component_gone(heard.component);
               },
           .on_problem = [this](const std::string& text) { node_.log().warning("{}", text); }};
 }
@@ -194,15 +198,21 @@ void RecordNode::tick() {
   handle_news();
   saver_.work();
   if (now() != Time{}) recording_.tick(now());
-  const std::string losses = losses_text(recording_.report());
-  if (losses != losses_ && node_.log().is_due("losses", std::chrono::seconds(5))) {
-    node_.log().warning("lost so far: {}", losses);
+  const auto wall = std::chrono::steady_clock::now();
+  if (const std::string losses = losses_text(recording_.report()); losses != losses_) {
     losses_ = losses;
+    lost_at_ = wall;
+  }
+  if (losses_ != told_losses_ && node_.log().is_due("losses", std::chrono::seconds(5))) {
+    node_.log().warning("lost so far: {}", losses_);
+    told_losses_ = losses_;
   }
   if (const std::string error = recording_.status().error; !error.empty()) {
     node_.set_degraded(error);
-  } else if (!losses.empty()) {
-    node_.set_degraded("lost: " + losses);
+  } else if (!losses_.empty() && wall - lost_at_ < kLossIsNews) {
+    node_.set_degraded("lost: " + losses_);
+  } else {
+    node_.set_ready();
   }
 }
 

@@ -64,7 +64,9 @@ class RecordNode {
   std::mutex mutex_;
   std::vector<News> news_;
   std::vector<std::pair<const Heard*, runtime::RawSample>> early_;
-  std::string losses_;
+  std::string losses_;  ///< so far
+  std::string told_losses_;
+  std::chrono::steady_clock::time_point lost_at_{};
   std::unique_ptr<TrafficTap> tap_;
 };
 

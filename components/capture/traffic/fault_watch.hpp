@@ -10,8 +10,8 @@ namespace coop::capture {
 /// goodbye. Emergency stops too.
 class FaultWatch {
  public:
-  /// Programs that start are ready for a moment, until they find that inputs are missing.
-  static constexpr int kAtWork = 4;
+  /// Programs that start are ready for a while, until they find that inputs are missing: 10 s.
+  static constexpr int kAtWork = 20;
   enum class State { kStarting, kReady, kDegraded, kStopping, kFinished };
 
   /// A heartbeat of `component`; answers what happened, for people, where it is a fault.

@@ -50,19 +50,12 @@ class ProgressLine {
 };
 
 std::vector<std::string> launcher_command(const Part& part) {
-  std::vector<std::string> command{(part.programs / "launcher").string(),
-                                   "up",
-                                   part.launch_file,
-                                   "--until",
-                                   "mission-done",
-                                   "--timeout",
-                                   fmt::format("{:.0f}", part.timeout),
-                                   "--run-dir",
-                                   part.folder.string(),
-                                   "--domain",
-                                   std::to_string(part.domain),
-                                   "--seed",
-                                   std::to_string(part.seed)};
+  std::vector<std::string> command{
+      (part.programs / "launcher").string(), "up", part.launch_file, "--until", "mission-done",
+      "--timeout", fmt::format("{:.0f}", part.timeout), "--run-dir", part.folder.string(),
+      "--domain", std::to_string(part.domain), "--seed", std::to_string(part.seed),
+      // All of it, not the last minutes only.
+      "--set", "record.last=0"};
   for (const std::string& setting : part.settings) {
     command.emplace_back("--set");
     command.push_back(setting);

@@ -44,6 +44,12 @@ TEST(PermissionsTest, a_person_commands_and_an_observer_only_hears) {
   EXPECT_THAT(recorder.subscribe, Contains("rt/*"));
 }
 
+TEST(PermissionsTest, the_recorder_of_a_system_hears_everything_and_commands_nothing) {
+  const Rights recorder = of("record");
+  EXPECT_THAT(recorder.publish, ElementsAre("rt/component_status", "rt/save_capture_result"));
+  EXPECT_THAT(recorder.subscribe, ElementsAre("rt/*"));
+}
+
 TEST(PermissionsTest, topics_of_lockstep_are_open_in_lockstep_only) {
   EXPECT_THAT(of("dwa").publish, Not(Contains("rt/lockstep_done")));
   const Rights dwa = rights_of({.name = "dwa", .program = "dwa", .lockstep = true});
