@@ -57,6 +57,11 @@ void DdsSettings::describe(config::Fields& fields) {
   fields.integer("peer_participants", peer_participants,
                  {.help = "programs a host that peers are looked for", .min = 1, .max = 119});
   fields.text("server", server, {.help = "ADDRESS:PORT of it (discovery: server)"});
+  fields.integer("lease", lease,
+                 {.unit = "s",
+                  .help = "until one who is not heard is given up; 0: 2, with a server 18",
+                  .min = 0,
+                  .max = 3600});
   fields.choice("transport", transport, kTransport,
                 {.help = "shm: shared memory as well, within one host, one user"});
   fields.texts("interfaces", interfaces,
@@ -91,6 +96,7 @@ std::vector<std::string> DdsSettings::assignments() const {
   add(peer_participants != usual.peer_participants, "peer_participants",
       std::to_string(peer_participants));
   add(server != usual.server, "server", quoted(server));
+  add(lease != usual.lease, "lease", std::to_string(lease));
   add(transport != usual.transport, "transport", transport);
   add(interfaces != usual.interfaces, "interfaces", in_yaml(interfaces));
   add(security != usual.security, "security", security ? "on" : "off");

@@ -21,7 +21,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv, const st
          "--dds", options.dds,
          "key=value: how others are found and reached (docs/hosts.md); may be repeated, goes "
          "over those in the environment's COOP_DDS: discovery, peers, peer_participants, "
-         "server, transport, interfaces, security, keys")
+         "server, lease, transport, interfaces, security, keys")
       ->take_all();
   app.add_flag("--sim-time", options.sim_time, "take the time from the topic clock");
   app.add_flag("--lockstep", options.lockstep, "run in step with all other components");

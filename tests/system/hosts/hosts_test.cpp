@@ -27,8 +27,10 @@ using std::chrono::seconds;
 
 constexpr int kDomain = 57;
 constexpr milliseconds kPatience{30000};
-/// Longer than the participants' lease: both sides have forgotten each other.
+/// Longer than the usual lease: both sides have forgotten each other.
 constexpr int kShortCut = 3;
+/// Longer than the server's lease, not than its clients'.
+constexpr int kServedCut = 10;
 const std::vector<std::string> kComponents{"amcl", "lidar_driver", "simulator"};
 
 int setting(const char* name, int otherwise) {
@@ -154,20 +156,20 @@ class HostsTest : public ::testing::Test {
     report(setup, "from joining to hearing everybody", times);
   }
 
-  void measure_healing(const std::string& setup, Operator& listening) {
+  void measure_healing(const std::string& setup, Operator& listening, int cut) {
     std::vector<double> times;
     for (int i = 0; i < repeats_; ++i) {
       const auto begin = Wall::now();
       network_->cut("planning");
       EXPECT_TRUE(listening.hears_nothing_of_the_planner());
       wait_until([] { return false; },
-                 seconds(cut_) - std::chrono::duration_cast<milliseconds>(Wall::now() - begin));
+                 seconds(cut) - std::chrono::duration_cast<milliseconds>(Wall::now() - begin));
       network_->join("planning");
       const auto healed = Wall::now();
       ASSERT_TRUE(listening.hears_all()) << output();
       times.push_back(seconds_since(healed));
     }
-    report(setup, "from the end of a cut of " + std::to_string(cut_) + " s to hearing everybody",
+    report(setup, "from the end of a cut of " + std::to_string(cut) + " s to hearing everybody",
            times);
   }
 
@@ -211,7 +213,7 @@ TEST_F(HostsTest, multicast_finds_everybody_through_cuts_and_loss) {
   Operator listening(*network_, {});
   ASSERT_TRUE(listening.hears_all()) << output();
   measure_joining("multicast", {});
-  measure_healing("multicast", listening);
+  measure_healing("multicast", listening, cut_);
   network_->lose(0.2);
   measure_joining("multicast, one packet in five lost", {});
   EXPECT_TRUE(listening.hears_all());
@@ -228,7 +230,7 @@ TEST_F(HostsTest, named_peers_find_each_other_where_multicast_is_blocked) {
   Operator listening(*network_, dds);
   ASSERT_TRUE(listening.hears_all()) << output();
   measure_joining("peers", dds);
-  measure_healing("peers", listening);
+  measure_healing("peers", listening, cut_);
   network_->lose(0.2);
   measure_joining("peers, one packet in five lost", dds);
 }
@@ -243,7 +245,7 @@ TEST_F(HostsTest, without_multicast_and_without_peers_nobody_is_found) {
   EXPECT_FALSE(listening.has_heard_anybody());
 }
 
-TEST_F(HostsTest, a_discovery_server_may_die_and_come_back) {
+TEST_F(HostsTest, a_discovery_server_stands_cuts_and_loss_and_may_die_and_come_back) {
   if (access("/usr/bin/fast-discovery-server", X_OK) != 0) {
     GTEST_SKIP() << "not run: no fast-discovery-server (package fastdds-tools)";
   }
@@ -255,6 +257,12 @@ TEST_F(HostsTest, a_discovery_server_may_die_and_come_back) {
   Operator listening(*network_, dds);
   ASSERT_TRUE(listening.hears_all()) << output();
   measure_joining("server", dds);
+  measure_healing("server", listening, std::max(cut_, kServedCut));
+  measure_joining("server, after the cut", dds);
+  network_->lose(0.2);
+  measure_joining("server, one packet in five lost", dds);
+  network_->lose_nothing();
+  network_->block_multicast();
   server.reset();
   EXPECT_TRUE(listening.hears_all()) << "what was matched goes on without the server";
   Operator late(*network_, dds);

@@ -92,6 +92,15 @@ TEST(ParticipantQos, asks_the_discovery_server_named) {
             11811U);
 }
 
+TEST(ParticipantQos, remembers_who_is_silent_for_longer_where_a_server_knows_everybody) {
+  const auto lease = [](const std::vector<std::string>& dds) {
+    return qos_of(dds).wire_protocol().builtin.discovery_config.leaseDuration.seconds;
+  };
+  EXPECT_EQ(lease({}), 2);
+  EXPECT_EQ(lease({"discovery=server", "server=10.1.2.3:11811"}), 18);
+  EXPECT_EQ(lease({"lease=7"}), 7);
+}
+
 TEST(ParticipantQos, takes_its_own_keys_out_of_the_folder) {
   const auto qos = qos_of({"security=on", "keys=/keys"});
   EXPECT_EQ(property(qos, "dds.sec.auth.builtin.PKI-DH.private_key"), "file:///keys/amcl/key.pem");

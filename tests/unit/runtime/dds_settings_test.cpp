@@ -38,6 +38,7 @@ TEST_F(DdsSettingsTest, what_is_written_as_assignments_reads_back_the_same) {
   settings.discovery = "peers";
   settings.peers = {"10.0.0.2", "planner.barn"};
   settings.peer_participants = 7;
+  settings.lease = 5;
   settings.transport = "shm";
   settings.interfaces = {"eth0"};
   settings.security = true;
@@ -45,6 +46,7 @@ TEST_F(DdsSettingsTest, what_is_written_as_assignments_reads_back_the_same) {
   const DdsSettings back = read_dds_settings(settings.assignments());
   EXPECT_EQ(back.assignments(), settings.assignments());
   EXPECT_EQ(back.keys, settings.keys);
+  EXPECT_EQ(back.lease, 5);
   EXPECT_THAT(back.peers, ElementsAre("10.0.0.2", "planner.barn"));
 }
 
