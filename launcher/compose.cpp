@@ -95,14 +95,13 @@ void add_health(std::string& out, const PlannedComponent& component, const Image
          "]\n      start_period: " + seconds(component.start_timeout) + "\n";
 }
 
+/// The order of starts and stops, without waiting for health: a probe comes after an interval, so
+/// each link of a chain would cost one, and components wait for their inputs themselves.
 void add_dependencies(std::string& out, const Plan& plan, const PlannedComponent& component) {
   if (component.after.empty()) return;
   out += "    depends_on:\n";
   for (const std::size_t place : component.after) {
-    const PlannedComponent& other = plan.components[place];
-    out += "      " + other.name +
-           ": {condition: " + (other.sends_heartbeat ? "service_healthy" : "service_started") +
-           "}\n";
+    out += "      " + plan.components[place].name + ": {condition: service_started}\n";
   }
 }
 

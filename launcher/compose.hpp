@@ -15,10 +15,10 @@ struct ImagePlaces {
 };
 
 /// The plan as a Compose file, for docker-compose 1.29 and `docker compose` alike: a service a
-/// component on one bridge network, started in the same order (`after` waits for health), asked for
-/// its health, started again as the launch file says. `plan` was made for the run folder
-/// ImagePlaces::run; names of files below `places` become those in the image. `title` names the
-/// launch file in a comment. Throws config::Error for a file that the image cannot have.
+/// component on one bridge network, started and stopped in the same order, asked for its health,
+/// started again as the launch file says. `plan` was made for the run folder ImagePlaces::run;
+/// names of files below `places` become those in the image. `title` names the launch file in a
+/// comment. Throws config::Error for a file that the image cannot have.
 [[nodiscard]] std::string compose_file(const Plan& plan, const Places& places,
                                        const std::string& title);
 

@@ -250,15 +250,6 @@ void refuse_strangers(HealthSource& health, const Plan& plan, Instant until) {
   }
 }
 
-/// The launcher's own settings, its keys found good: what is wrong with all is said once.
-runtime::DdsSettings check_dds(const Plan& plan) {
-  runtime::DdsSettings dds = runtime::read_dds_settings(plan.dds.assignments());
-  if (dds.security) {
-    runtime::check_keys(dds.keys, kLauncherName, std::chrono::system_clock::now());
-  }
-  return dds;
-}
-
 }  // namespace
 
 Outcome run_system(const UpOptions& options) {
@@ -266,7 +257,8 @@ Outcome run_system(const UpOptions& options) {
   const Launch launch = load_launch(find_launch_file(options.file, places), options.overrides);
   RunFolder folder(launch.run_dir);
   const Plan plan = make_plan(launch, places, folder.path());
-  const runtime::DdsSettings dds = check_dds(plan);
+  // What is wrong with all keys is said once.
+  const auto dds = runtime::read_dds_settings_of(kLauncherName, plan.dds.assignments());
   // Before the middleware starts its threads, so that none of them takes a signal.
   SignalFile signals{SIGINT, SIGTERM, SIGHUP, SIGCHLD};
   auto lock = SystemLock::acquire(launch.robot, launch.domain);
@@ -296,7 +288,7 @@ void check_system(const UpOptions& options) {
   const Launch launch = load_launch(find_launch_file(options.file, places), options.overrides);
   // Nothing is written into a run folder by a check, so there need not be one.
   const Plan plan = make_plan(launch, places, std::filesystem::path(launch.run_dir) / "check");
-  (void)check_dds(plan);
+  (void)runtime::read_dds_settings_of(kLauncherName, plan.dds.assignments());
   check_all(plan);
 }
 

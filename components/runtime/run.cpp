@@ -21,15 +21,6 @@ config::Document load_document(const Options& options) {
   return document;
 }
 
-/// With the keys, where there must be some, found good.
-DdsSettings load_dds_settings(const Options& options) {
-  DdsSettings settings = read_dds_settings(options.dds);
-  if (settings.security) {
-    check_keys(settings.keys, options.name, std::chrono::system_clock::now());
-  }
-  return settings;
-}
-
 /// The clock was moved, for the first time or back.
 void set_clock(Node& node, ManualClock& clock, Time time) {
   const Time before = clock.now();
@@ -153,7 +144,7 @@ int run_program(int argc, const char* const* argv, const Program& program) {
       return 0;
     }
     const config::Document document = load_document(*options);
-    const DdsSettings settings = load_dds_settings(*options);
+    const DdsSettings settings = read_dds_settings_of(options->name, options->dds);
     program.check(document);
     if (options->mode == Options::Mode::kCheck) return 0;
     if (options->mode == Options::Mode::kPrintConfig) {

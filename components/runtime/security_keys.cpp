@@ -116,4 +116,11 @@ void check_keys(const std::filesystem::path& folder, const std::string& name,
   }
 }
 
+DdsSettings read_dds_settings_of(const std::string& name,
+                                 const std::vector<std::string>& assignments) {
+  DdsSettings settings = read_dds_settings(assignments);
+  if (settings.security) check_keys(settings.keys, name, std::chrono::system_clock::now());
+  return settings;
+}
+
 }  // namespace coop::runtime

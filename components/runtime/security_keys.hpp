@@ -2,6 +2,9 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
+#include <vector>
+
+#include "runtime/dds_settings.hpp"
 
 namespace coop::runtime {
 
@@ -23,5 +26,9 @@ struct KeyFiles {
 /// only say that no participant could be made.
 void check_keys(const std::filesystem::path& folder, const std::string& name,
                 std::chrono::system_clock::time_point now);
+
+/// As read_dds_settings(), the keys of `name`, where there must be some, found good.
+[[nodiscard]] DdsSettings read_dds_settings_of(const std::string& name,
+                                               const std::vector<std::string>& assignments);
 
 }  // namespace coop::runtime

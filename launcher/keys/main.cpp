@@ -57,6 +57,10 @@ Roster read_roster(const CommandLine& line) {
   add("launcher", Participant::Role::kLauncher);
   add("person", Participant::Role::kPerson);
   for (const std::string& name : line.observers) add(name, Participant::Role::kObserver);
+  if (std::ranges::find(plan.components, "record", &launcher::PlannedComponent::name) ==
+      plan.components.end()) {
+    add("record", Participant::Role::kComponent);  // as `coop record` joins
+  }
   for (const auto& component : plan.components) {
     if (!component.sends_heartbeat) continue;
     const auto declared = std::ranges::find(launch.components, component.name,

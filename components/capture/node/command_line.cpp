@@ -46,6 +46,9 @@ int parse_or_exit_code(CLI::App& app, int argc, const char* const* argv) {
   } catch (const CLI::ParseError& problem) {
     std::cerr << app.get_name() << ": " << problem.what() << " (see --help)\n";
     return 2;
+  } catch (const std::exception& problem) {
+    std::cerr << app.get_name() << ": " << problem.what() << '\n';
+    return 1;
   }
   return kGoOn;
 }

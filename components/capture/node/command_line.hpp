@@ -29,8 +29,8 @@ class CommandLine {
 };
 
 /// Parses; answers an exit code where the program has nothing more to do: help was asked for, or
-/// the usage was wrong (one line on stderr, 2). Options that `app` does not know are left to the
-/// caller.
+/// the usage was wrong (one line on stderr, 2), or a command has thrown (the same, 1). Options that
+/// `app` does not know are left to the caller.
 [[nodiscard]] int parse_or_exit_code(CLI::App& app, int argc, const char* const* argv);
 inline constexpr int kGoOn = -1;
 

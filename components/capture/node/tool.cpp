@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capture/traffic/topic_names.hpp"
+#include "runtime/security_keys.hpp"
 #include "runtime/stop_signal.hpp"
 
 namespace coop::capture {
@@ -12,6 +13,8 @@ namespace {
 
 /// Samples that wait for the tool's thread, at most: a terminal may be slow.
 constexpr std::size_t kMostWaiting = 100'000;
+/// Whose keys the tools take in a secured system: those for commands and looks of people.
+constexpr const char* kPerson = "person";
 
 }  // namespace
 
@@ -22,10 +25,11 @@ void ToolOptions::describe(CLI::App& app) {
 }
 
 runtime::DdsOptions ToolOptions::dds(const std::string& name) const {
+  const auto settings = runtime::read_dds_settings_of(kPerson, {});
   return {.domain = domain,
-          .participant_name = name,
+          .participant_name = settings.security ? kPerson : name,
           .partition = robot,
-          .settings = runtime::read_dds_settings({}),
+          .settings = settings,
           .sees_all_topics = true};
 }
 

@@ -14,6 +14,14 @@ using runtime::Qos;
 MissionWatch::MissionWatch(int domain)
     : listener_(domain, "mission_watch"),
       eggs_(listener_.node().advertise<vision_msgs::msg::Detection3DArray>("eggs", Qos::kEvent)) {
+  subscribe();
+}
+
+MissionWatch::MissionWatch(const runtime::DdsOptions& dds) : listener_(dds) {
+  subscribe();
+}
+
+void MissionWatch::subscribe() {
   listener_.node().subscribe<MissionStatus>(
       "mission_status", Qos::kStateLatched,
       [this](const MissionStatus& status) { mission_ = status; });

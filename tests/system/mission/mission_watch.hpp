@@ -13,6 +13,8 @@ namespace coop::test {
 class MissionWatch {
  public:
   explicit MissionWatch(int domain);
+  /// One that only looks, as an observer with keys does.
+  explicit MissionWatch(const runtime::DdsOptions& dds);
 
   /// Takes in what has arrived.
   void look();
@@ -28,6 +30,8 @@ class MissionWatch {
   void pretend_egg(double x, double y);
 
  private:
+  void subscribe();
+
   Listener listener_;
   runtime::Publisher<vision_msgs::msg::Detection3DArray> eggs_;
   coop_msgs::msg::MissionStatus mission_;

@@ -8,11 +8,9 @@
 #include <optional>
 
 #include "core/atomic_file.hpp"
-#include "geometry_msgs/msg/TwistStamped.h"
 #include "launcher/keys/key_folder.hpp"
 #include "runtime/security_keys.hpp"
-#include "sensor_msgs/msg/LaserScan.h"
-#include "system/support/listener.hpp"
+#include "system/security/guest.hpp"
 #include "system/support/running_system.hpp"
 #include "system/support/small_system.hpp"
 #include "system/support/test_domain.hpp"
@@ -35,45 +33,6 @@ fs::path copy_keys(const fs::path& from, const fs::path& to, const std::string& 
   fs::copy(from / name, to / name, fs::copy_options::recursive);
   return to;
 }
-
-/// A program that speaks to the system's domain and partition; without `keys`, in the clear.
-class Guest {
- public:
-  Guest(const std::string& name, const fs::path& keys)
-      : listener_({.domain = test_domain(),
-                   .participant_name = name,
-                   .partition = kRobot,
-                   .settings = settings(keys)}) {}
-
-  void listen_to_scans() {
-    listener_.node().subscribe<sensor_msgs::msg::LaserScan>("scan", runtime::Qos::kSensorStream,
-                                                            [this](const auto&) { ++scans_; });
-  }
-  void drive() {
-    drive_ = listener_.node().advertise<geometry_msgs::msg::TwistStamped>("cmd_vel",
-                                                                          runtime::Qos::kCommand);
-    drives_ = true;
-  }
-  void look() {
-    if (drives_) drive_.publish(geometry_msgs::msg::TwistStamped());
-    listener_.look();
-  }
-  [[nodiscard]] int scans() const { return scans_; }
-  /// Who would have heard it drive.
-  [[nodiscard]] int driven() const { return drives_ ? drive_.subscribers() : 0; }
-
- private:
-  static runtime::DdsSettings settings(const fs::path& keys) {
-    runtime::DdsSettings settings;
-    settings.security = !keys.empty();
-    settings.keys = keys;
-    return settings;
-  }
-  Listener listener_;
-  runtime::Publisher<geometry_msgs::msg::TwistStamped> drive_;
-  bool drives_ = false;
-  int scans_ = 0;
-};
 
 class SecurityTest : public ::testing::Test {
  protected:
@@ -106,7 +65,7 @@ class SecurityTest : public ::testing::Test {
   /// Somebody who belongs hears the system; answers after how many seconds it did.
   std::optional<double> time_to_join() {
     const auto begin = std::chrono::steady_clock::now();
-    Guest person("person", keys_);
+    Guest person("person", kRobot, keys_);
     person.listen_to_scans();
     const bool hears = wait_until(
         [&] {
@@ -120,7 +79,7 @@ class SecurityTest : public ::testing::Test {
   /// The guest has its chance while one who belongs hears three seconds of scans.
   void expect_kept_out(Guest& guest, const std::string& who) {
     if (!person_) {
-      person_.emplace("person", keys_);
+      person_.emplace("person", kRobot, keys_);
       person_->listen_to_scans();
     }
     const int before = person_->scans();
@@ -139,7 +98,7 @@ class SecurityTest : public ::testing::Test {
   void expect_no_use(const std::string& name, const fs::path& keys, const std::string& who) {
     std::optional<Guest> guest;
     try {
-      guest.emplace(name, keys);
+      guest.emplace(name, kRobot, keys);
       guest->listen_to_scans();
       guest->drive();
     } catch (const std::runtime_error& refused) {
@@ -180,7 +139,7 @@ TEST_F(SecurityTest, who_does_not_belong_gets_nothing_in_and_nothing_out) {
   authority.revoke("lost", Clock::now());
   start();
 
-  Guest nobody("person", {});
+  Guest nobody("person", kRobot, {});
   nobody.listen_to_scans();
   nobody.drive();
   expect_kept_out(nobody, "without keys");
@@ -196,7 +155,7 @@ TEST_F(SecurityTest, who_does_not_belong_gets_nothing_in_and_nothing_out) {
 TEST_F(SecurityTest, a_component_s_keys_open_its_own_topics_only) {
   make_keys();
   start();
-  Guest driver("lidar_driver", keys_);
+  Guest driver("lidar_driver", kRobot, keys_);
   EXPECT_THROW(driver.drive(), std::runtime_error);
   EXPECT_THROW(driver.listen_to_scans(), std::runtime_error);
 
