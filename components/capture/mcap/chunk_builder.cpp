@@ -9,6 +9,7 @@ namespace coop::mcap {
 void ChunkBuilder::add(const Message& message) {
   entries_of(message.channel_id).push_back({message.log_time, records_.size()});
   encode(records_, message);
+  if (slot_) slot_->publish(records_.view());
   const bool first = message_count_ == 0;
   start_time_ = first ? message.log_time : std::min(start_time_, message.log_time);
   end_time_ = first ? message.log_time : std::max(end_time_, message.log_time);
@@ -27,6 +28,7 @@ std::vector<MessageIndexEntry>& ChunkBuilder::entries_of(std::uint16_t channel) 
 }
 
 void ChunkBuilder::clear() {
+  if (slot_) slot_->clear();
   records_.clear();
   for (std::size_t i = 0; i < channels_used_; ++i) {
     slot_of_channel_[channels_[i].channel_id] = 0;

@@ -3,6 +3,7 @@
 
 #include "capture/mcap/compression.hpp"
 #include "capture/mcap/encode.hpp"
+#include "capture/mcap/tail.hpp"
 
 namespace coop::mcap {
 
@@ -16,7 +17,11 @@ struct ChannelEntries {
 /// After clear() it is filled again without allocating.
 class ChunkBuilder {
  public:
-  explicit ChunkBuilder(Padding padding = Padding::kNone) : padding_(padding) {}
+  /// `slot`: where the records lie, as long as it has room for them; none: on the heap.
+  explicit ChunkBuilder(Padding padding = Padding::kNone, std::unique_ptr<Tail::Slot> slot = {})
+      : padding_(padding),
+        slot_(std::move(slot)),
+        records_(slot_ ? slot_.get() : std::pmr::new_delete_resource()) {}
 
   void add(const Schema& schema) { encode(records_, schema, padding_); }
   void add(const Channel& channel) { encode(records_, channel, padding_); }
@@ -42,6 +47,7 @@ class ChunkBuilder {
   std::vector<MessageIndexEntry>& entries_of(std::uint16_t channel);
 
   Padding padding_;
+  std::unique_ptr<Tail::Slot> slot_;
   ByteBuffer records_;
   std::uint64_t message_count_ = 0;
   Nanoseconds start_time_ = 0;

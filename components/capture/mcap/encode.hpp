@@ -1,5 +1,6 @@
 #pragma once
 #include <cstring>
+#include <memory_resource>
 #include <string_view>
 
 #include "capture/mcap/records.hpp"
@@ -10,6 +11,9 @@ namespace coop::mcap {
 /// Bytes that grow at the end; clear() keeps the memory.
 class ByteBuffer {
  public:
+  ByteBuffer() = default;
+  explicit ByteBuffer(std::pmr::memory_resource* memory) : bytes_(memory) {}
+
   void u8(std::uint8_t value) { bytes_.push_back(std::byte{value}); }
   void u16(std::uint16_t value) { number(value); }
   void u32(std::uint32_t value) { number(value); }
@@ -49,7 +53,7 @@ class ByteBuffer {
     }
   }
 
-  std::vector<std::byte> bytes_;
+  std::pmr::vector<std::byte> bytes_;
 };
 
 /// Whether records get a few bytes more than they need, which readers have to skip: only the

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "capture/mcap/file_error.hpp"
+#include "capture/mcap/tail.hpp"
 
 namespace coop::mcap {
 namespace {
@@ -80,6 +81,11 @@ class MemorySource final : public Source {
 }  // namespace
 
 std::shared_ptr<const Source> open_file(const std::filesystem::path& path) {
+  const auto tail = read_tail(path);
+  return with_tail(open_plain_file(path), tail);
+}
+
+std::shared_ptr<const Source> open_plain_file(const std::filesystem::path& path) {
   return std::make_shared<FileSource>(path);
 }
 

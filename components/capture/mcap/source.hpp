@@ -21,8 +21,11 @@ class Source {
   [[nodiscard]] virtual const std::string& name() const = 0;
 };
 
-/// Throws std::system_error naming the file.
+/// A capture, with the chunks of its tail where its writer was killed (tail.hpp). Throws
+/// std::system_error naming the file.
 [[nodiscard]] std::shared_ptr<const Source> open_file(const std::filesystem::path& path);
+/// Any file, as it is.
+[[nodiscard]] std::shared_ptr<const Source> open_plain_file(const std::filesystem::path& path);
 [[nodiscard]] std::shared_ptr<const Source> open_memory(std::vector<std::byte> bytes,
                                                         std::string name = "memory");
 

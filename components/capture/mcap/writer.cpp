@@ -3,6 +3,21 @@
 #include <algorithm>
 
 namespace coop::mcap {
+namespace {
+
+/// Room in a slot for definitions that are new with its chunk.
+constexpr std::size_t kDefinitionsRoom = std::size_t{64} << 10U;
+
+std::unique_ptr<Tail> make_tail(const Series& series, bool wanted) {
+  if (!wanted) return nullptr;
+  try {
+    return std::make_unique<Tail>(Tail::path_of(series.path));
+  } catch (const std::system_error&) {
+    return nullptr;  // without it a kill costs what is in memory
+  }
+}
+
+}  // namespace
 
 std::uint64_t WriterStatus::lost() const {
   std::uint64_t sum = 0;
@@ -12,6 +27,7 @@ std::uint64_t WriterStatus::lost() const {
 
 Writer::Writer(const Series& series, const WriterOptions& options)
     : options_(options),
+      tail_(make_tail(series, options.tail)),
       target_(make_series(series, options.file, definitions_)),
       compressor_(options.compression, options.level) {
   start();
@@ -41,7 +57,20 @@ std::uint16_t Writer::add_schema(std::string_view name, std::string_view encodin
 std::uint16_t Writer::add_channel(std::uint16_t schema_id, std::string_view topic,
                                   std::string_view message_encoding,
                                   const std::map<std::string, std::string>& metadata) {
-  return definitions_.channel(schema_id, topic, message_encoding, metadata);
+  const auto id = definitions_.channel(schema_id, topic, message_encoding, metadata);
+  has_new_definitions_ = true;
+  return id;
+}
+
+/// A chunk that is found in the tail must tell of its channels itself: those in the file come with
+/// the next chunk.
+void Writer::add_definitions() {
+  if (!tail_ || !has_new_definitions_.exchange(false)) return;
+  const Definitions::View fresh = definitions_.after(schemas_told_, channels_told_);
+  for (const Schema* schema : fresh.schemas) current_->add(*schema);
+  for (const Channel* channel : fresh.channels) current_->add(*channel);
+  schemas_told_ += fresh.schemas.size();
+  channels_told_ += fresh.channels.size();
 }
 
 bool Writer::write(const Message& message) {
@@ -57,6 +86,7 @@ bool Writer::write(const Message& message) {
     return false;
   }
   const std::size_t before = current_->capacity();
+  add_definitions();
   current_->add(message);
   builder_bytes_ += current_->capacity() - before;
   ++status_.messages;
@@ -73,8 +103,10 @@ bool Writer::make_room(std::unique_lock<std::mutex>& lock, std::size_t message_s
       current_ = std::move(free_.back());
       free_.pop_back();
     } else if (builders_ < 2 || builder_bytes_ + wanted <= options_.queue_bytes) {
-      current_ = std::make_unique<ChunkBuilder>(options_.file.layout.padding);
-      current_->reserve(wanted);
+      const std::size_t room = wanted + (tail_ ? kDefinitionsRoom : 0);
+      current_ = std::make_unique<ChunkBuilder>(options_.file.layout.padding,
+                                                tail_ ? tail_->add_slot(room) : nullptr);
+      current_->reserve(room);
       ++builders_;
       builder_bytes_ += current_->capacity();
     } else if (options_.when_full == WhenFull::kLose) {
@@ -202,6 +234,7 @@ void Writer::run() {
   } catch (const std::exception& error) {
     note_failure(error.what());
   }
+  if (tail_) tail_->remove();
   lock.lock();
   status_.bytes = target_->bytes();
 }

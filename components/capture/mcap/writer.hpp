@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <condition_variable>
 #include <future>
 #include <thread>
@@ -20,6 +21,8 @@ struct WriterOptions {
   Nanoseconds chunk_age = 1'000'000'000;              // ... or is older than this, in log time
   std::size_t queue_bytes = std::size_t{256} << 20U;  // memory for chunks on their way to the disk
   WhenFull when_full = WhenFull::kLose;
+  /// What is in memory survives the death of the process, in CAPTURE.tail (files only).
+  bool tail = false;
 };
 
 struct WriterStatus {
@@ -37,9 +40,10 @@ struct WriterStatus {
 /// were finished. All calls may come from any thread; no clock is read, time is the messages' log
 /// time and what close_aged_chunk() is told.
 ///
-/// A process killed at any moment leaves all chunks finished before (at most chunk_age old or
-/// chunk_bytes large, plus what is queued). When the disk fails, the file ends with the last whole
-/// chunk, status().error says why, and what comes later is counted as lost.
+/// A process killed at any moment leaves all chunks written before, and with `tail` those that are
+/// being filled and wait too (but for messages larger than a chunk). When the disk fails, the file
+/// ends with the last whole chunk, status().error says why, and what comes later is counted as
+/// lost.
 class Writer {
  public:
   /// Throws std::system_error where the file cannot be created.
@@ -94,8 +98,14 @@ class Writer {
   void hand_over();
   void note_failure(const std::string& what);
 
+  void add_definitions();
+
   WriterOptions options_;
   Definitions definitions_;
+  std::atomic<bool> has_new_definitions_{false};
+  std::size_t schemas_told_ = 0;  // to the builders: a tail explains itself
+  std::size_t channels_told_ = 0;
+  std::unique_ptr<Tail> tail_;
   std::unique_ptr<ChunkTarget> target_;  // of the thread
   Compressor compressor_;                // of the thread
   ByteBuffer compressed_;                // of the thread

@@ -12,7 +12,7 @@ mcap::Nanoseconds to_mcap(Time time) {
   return static_cast<mcap::Nanoseconds>(std::max<std::int64_t>(0, to_nanoseconds(time)));
 }
 
-std::unique_ptr<mcap::Writer> make_writer(const RecordingOptions& options) {
+std::unique_ptr<mcap::Writer> make_writer(RecordingOptions options) {
   if (options.last > Duration{0}) {
     return std::make_unique<mcap::Writer>(
         mcap::Ring{.duration = static_cast<mcap::Nanoseconds>(options.last.count()),
@@ -20,6 +20,7 @@ std::unique_ptr<mcap::Writer> make_writer(const RecordingOptions& options) {
         options.writer);
   }
   std::filesystem::create_directories(options.path.parent_path());
+  options.writer.tail = true;
   return std::make_unique<mcap::Writer>(
       mcap::Series{.path = options.path,
                    .split_bytes = options.split_bytes,

@@ -76,6 +76,7 @@ void write_images(benchmark::State& state) {
     options.compression = Compression::kNone;
     options.when_full = WhenFull::kWait;
     options.file.layout.data_crc = state.range(0) != 0;
+    options.tail = state.range(1) != 0;
     const Stopwatch watch;
     {
       Writer writer(Series{path}, options);
@@ -91,9 +92,10 @@ void write_images(benchmark::State& state) {
   rates.report(state, "MB");
 }
 BENCHMARK(write_images)
-    ->ArgName("data_crc")
-    ->Arg(0)
-    ->Arg(1)
+    ->ArgNames({"data_crc", "tail"})
+    ->Args({0, 0})
+    ->Args({0, 1})
+    ->Args({1, 0})
     ->MeasureProcessCPUTime()
     ->Unit(benchmark::kMillisecond);
 
@@ -108,6 +110,7 @@ void write_small_messages(benchmark::State& state) {
     WriterOptions options;
     options.compression = kCompressions[static_cast<std::size_t>(state.range(0))];
     options.when_full = WhenFull::kWait;
+    options.tail = state.range(1) != 0;
     const Stopwatch watch;
     {
       Writer writer(Series{path}, options);
@@ -128,8 +131,8 @@ void write_small_messages(benchmark::State& state) {
   rates.report(state, "messages");
 }
 BENCHMARK(write_small_messages)
-    ->ArgName("none_lz4_zstd")
-    ->DenseRange(0, 2)
+    ->ArgNames({"none_lz4_zstd", "tail"})
+    ->ArgsProduct({{0, 1, 2}, {0, 1}})
     ->MeasureProcessCPUTime()
     ->Unit(benchmark::kMillisecond);
 

@@ -124,6 +124,8 @@ TEST(Record, KilledInMidRunItIsStartedAgainAndBothFilesCanBeRead) {
   EXPECT_FALSE(cut.summary().complete);
   ASSERT_TRUE(cut.summary().statistics);
   EXPECT_GT(cut.summary().statistics->message_count, 100U);
+  EXPECT_TRUE(std::filesystem::exists(files[0].string() + ".tail"));
+  expect_no_holes(files[0]);
   const mcap::Reader second(files[1]);
   EXPECT_TRUE(second.summary().complete);
   // The late joiner got what is latched.
