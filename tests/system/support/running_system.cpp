@@ -97,8 +97,8 @@ std::string Program::output() const {
 }
 
 RunningSystem::RunningSystem(const std::filesystem::path& launch_file,
-                             const std::vector<std::string>& arguments)
-    : domain_(test_domain()) {
+                             const std::vector<std::string>& arguments, int domain)
+    : domain_(domain) {
   (void)control_folder();
   std::vector<std::string> all{"up",        launch_file.string(),
                                "--domain",  std::to_string(domain_),

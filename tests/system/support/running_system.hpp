@@ -11,6 +11,7 @@
 #include "launcher/control_client.hpp"
 #include "launcher/process.hpp"
 #include "support/temporary_folder.hpp"
+#include "system/support/test_domain.hpp"
 
 namespace coop::test {
 
@@ -58,7 +59,8 @@ class Program {
 class RunningSystem {
  public:
   explicit RunningSystem(const std::filesystem::path& launch_file,
-                         const std::vector<std::string>& arguments = {});
+                         const std::vector<std::string>& arguments = {},
+                         int domain = test_domain());
 
   [[nodiscard]] Program& launcher() { return *launcher_; }
   /// Nothing while the launcher does not answer (yet, or any more).

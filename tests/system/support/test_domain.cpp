@@ -36,4 +36,10 @@ int test_domain() {
   return claim.domain;
 }
 
+int another_test_domain() {
+  (void)test_domain();
+  static const Claim claim = claim_domain();
+  return claim.domain;
+}
+
 }  // namespace coop::test

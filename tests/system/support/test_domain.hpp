@@ -7,4 +7,7 @@ namespace coop::test {
 /// all are taken.
 [[nodiscard]] int test_domain();
 
+/// A second one.
+[[nodiscard]] int another_test_domain();
+
 }  // namespace coop::test
