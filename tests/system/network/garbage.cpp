@@ -18,6 +18,9 @@ namespace {
 constexpr std::size_t kEnough = 4000;
 constexpr std::size_t kHeader = 20;  // of an RTPS message
 constexpr std::array<std::uint8_t, 4> kMagic{'R', 'T', 'P', 'S'};
+/// Where in the header the sender's name stands; this one begins as Fast DDS's do.
+constexpr std::size_t kName = 8;
+constexpr std::array<std::uint8_t, 12> kStranger{1, 15, 0xba, 0xdc, 0x0d, 0xe0, 0, 0, 0, 0, 0, 9};
 /// Kinds of sub-messages there are: pad, acknack, heartbeat, gap, info, nack_frag, data, security.
 constexpr std::array<std::uint8_t, 16> kKinds{0x01, 0x06, 0x07, 0x08, 0x09, 0x0c, 0x0d, 0x0e,
                                               0x0f, 0x12, 0x13, 0x15, 0x16, 0x30, 0x31, 0x33};
@@ -74,8 +77,8 @@ Packet deadly_packet() {
   return packet;
 }
 
-Garbage::Garbage(std::vector<Packet> genuine, std::uint64_t seed)
-    : genuine_(std::move(genuine)), random_(seed) {}
+Garbage::Garbage(std::vector<Packet> genuine, std::uint64_t seed, Sender sender)
+    : genuine_(std::move(genuine)), random_(seed), sender_(sender) {}
 
 std::size_t Garbage::below(std::size_t limit) {
   return limit == 0 ? 0 : static_cast<std::size_t>(random_() % limit);
@@ -135,7 +138,14 @@ Packet Garbage::next() {
     packet[kHeader] = kKinds[below(kKinds.size())];
     return packet;
   }
-  return mutated();
+  Packet packet = mutated();
+  if (sender_ == Sender::kStranger) sign(packet);
+  return packet;
+}
+
+void Garbage::sign(Packet& packet) const {
+  if (packet.size() < kHeader) return;
+  std::ranges::copy(kStranger, packet.begin() + kName);
 }
 
 Thrower::Thrower() : socket_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {

@@ -21,16 +21,21 @@ using Packet = std::vector<std::uint8_t>;
 /// packets cut short, with bits flipped, lengths changed, pieces swapped.
 class Garbage {
  public:
-  Garbage(std::vector<Packet> genuine, std::uint64_t seed);
+  /// Whose name is on packets that have one: a stranger's, or, forged, that of the program from
+  /// whose packet it was made.
+  enum class Sender { kStranger, kForged };
+  Garbage(std::vector<Packet> genuine, std::uint64_t seed, Sender sender);
   [[nodiscard]] Packet next();
 
  private:
   [[nodiscard]] std::size_t below(std::size_t limit);
   [[nodiscard]] Packet noise(std::size_t longest);
   [[nodiscard]] Packet mutated();
+  void sign(Packet& packet) const;
 
   std::vector<Packet> genuine_;
   std::mt19937_64 random_;
+  Sender sender_;
 };
 
 /// Sends packets to a port of this machine.
