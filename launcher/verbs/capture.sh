@@ -15,8 +15,6 @@ Captures (MCAP files)
                         with all values: a YAML document or a line of JSON a message
   mcap attachments FILE [NAME...] [--extract DIR]
                         launch file, configuration, maps that were recorded with it
-  mcap import BAG -o OUT
-                        a rosbag2 recording (sqlite3) as MCAP
 TEXT
 }
 

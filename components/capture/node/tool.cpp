@@ -21,11 +21,17 @@ constexpr const char* kPerson = "person";
 void ToolOptions::describe(CLI::App& app) {
   app.add_option("--domain", domain, "DDS domain, 0 to 232")->check(CLI::Range(0, 232));
   app.add_option("--robot", robot, "robot name; '*': all robots");
+  app.add_option(
+         "--dds", dds_settings,
+         "KEY=VALUE, as in dds: of the launch file (discovery, peers, interfaces, security, "
+         "keys ...), over those in COOP_DDS; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
   app.add_flag("--json", json, "one JSON object a line");
 }
 
 runtime::DdsOptions ToolOptions::dds(const std::string& name) const {
-  const auto settings = runtime::read_dds_settings_of(kPerson, {});
+  const auto settings = runtime::read_dds_settings_of(kPerson, dds_settings);
   return {.domain = domain,
           .participant_name = settings.security ? kPerson : name,
           .partition = robot,

@@ -3,6 +3,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "capture/node/traffic_tap.hpp"
 #include "runtime/clock.hpp"
@@ -18,6 +19,7 @@ namespace coop::capture {
 struct ToolOptions {
   int domain = 0;
   std::string robot;
+  std::vector<std::string> dds_settings;  ///< KEY=VALUE, as in `dds:` of a launch file
   bool json = false;
 
   void describe(CLI::App& app);

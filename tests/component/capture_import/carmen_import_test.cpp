@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "capture/traffic/offered_qos.hpp"
 #include "capture/values/print_messages.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
@@ -83,6 +84,20 @@ TEST_F(CarmenImport, a_log_becomes_the_messages_of_a_robot) {
   EXPECT_THAT(scan["ranges"], ElementsAre(1.0, 2.0, "Infinity"));
   // Of two readings of one stamp the last line stands.
   EXPECT_EQ(messages[4]["data"]["pose"]["pose"]["position"]["x"], 9.0);
+}
+
+TEST_F(CarmenImport, topics_are_offered_as_a_robot_does) {
+  const auto path = folder_.path() / "offered.mcap";
+  mcap::Writer writer(mcap::Series{.path = path}, waiting());
+  (void)import_carmen(records_of(kLog), {}, writer);
+  writer.close();
+  const mcap::Reader reader(path);
+  for (const auto& [id, channel] : reader.summary().channels) {
+    const auto offered = parse_offered_qos(channel.metadata.at("offered_qos_profiles"));
+    ASSERT_EQ(offered.size(), 1U) << channel.topic;
+    EXPECT_EQ(offered[0].reliable, channel.topic.starts_with("/tf")) << channel.topic;
+    EXPECT_EQ(offered[0].transient_local, channel.topic == "/tf_static") << channel.topic;
+  }
 }
 
 TEST_F(CarmenImport, a_log_without_measurements_is_refused) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "capture/schema/definitions.hpp"
+#include "capture/traffic/offered_qos.hpp"
 #include "conversions/geometry.hpp"
 #include "conversions/navigation.hpp"
 #include "conversions/sensors.hpp"
@@ -19,10 +20,12 @@ namespace {
 template <class Message>
 class Channel {
  public:
-  Channel(mcap::Writer& writer, const std::string& topic, const std::string& type)
+  Channel(mcap::Writer& writer, const std::string& topic, const std::string& type,
+          const OfferedQos& qos)
       : writer_(writer) {
     const auto schema = writer.add_schema(type, "ros2msg", *ros2msg_definition(type));
-    message_.channel_id = writer.add_channel(schema, topic);
+    message_.channel_id =
+        writer.add_channel(schema, topic, "cdr", {{"offered_qos_profiles", to_yaml(qos)}});
   }
 
   void write(const Message& message, Time stamp) {
@@ -40,6 +43,11 @@ class Channel {
   mcap::Message message_;
   std::vector<std::uint8_t> bytes_;
 };
+
+/// As a robot of ours offers them (runtime/qos.hpp): streams, events, and what is latched.
+const OfferedQos kStream{.reliable = false};
+const OfferedQos kEvents{};
+const OfferedQos kLatched{.transient_local = true};
 
 tf2_msgs::msg::TFMessage transform_message(Time stamp, const std::string& parent,
                                            const std::string& child, const Pose2& pose) {
@@ -61,10 +69,10 @@ class Import {
  public:
   Import(const CarmenImportOptions& options, mcap::Writer& writer)
       : options_(options),
-        scans_(writer, "/scan", "sensor_msgs/msg/LaserScan"),
-        odometry_(writer, "/odom", "nav_msgs/msg/Odometry"),
-        transforms_(writer, "/tf", "tf2_msgs/msg/TFMessage"),
-        static_transforms_(writer, "/tf_static", "tf2_msgs/msg/TFMessage") {}
+        scans_(writer, "/scan", "sensor_msgs/msg/LaserScan", kStream),
+        odometry_(writer, "/odom", "nav_msgs/msg/Odometry", kStream),
+        transforms_(writer, "/tf", "tf2_msgs/msg/TFMessage", kEvents),
+        static_transforms_(writer, "/tf_static", "tf2_msgs/msg/TFMessage", kLatched) {}
 
   void mount(Time stamp) {
     static_transforms_.write(
