@@ -38,6 +38,8 @@ class ChunkTarget {
   virtual void add(const Metadata& metadata, Where where) = 0;
   /// What is kept in memory, as a complete file. Throws std::logic_error where nothing is.
   virtual std::uint64_t write_snapshot(const std::filesystem::path& path) = 0;
+  /// A new time begins: a series goes on in a file of this name, a ring forgets what it holds.
+  virtual void begin_anew(const std::filesystem::path& path) = 0;
   virtual void finish() = 0;
   /// The files written or begun, and how long they are together.
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }

@@ -63,6 +63,12 @@ class ChunkRing final : public ChunkTarget {
     return file.statistics().message_count;
   }
 
+  void begin_anew(const std::filesystem::path&) override {
+    chunks_.clear();
+    bytes_ = 0;
+    latest_ = 0;
+  }
+
   void finish() override {}
   [[nodiscard]] std::uint64_t bytes() const override { return bytes_; }
 

@@ -43,6 +43,12 @@ class FileSeries final : public ChunkTarget {
     throw std::logic_error("a capture into files has nothing in memory to write out");
   }
 
+  void begin_anew(const std::filesystem::path& path) override {
+    series_.path = path;
+    parts_ = 0;
+    next_file();
+  }
+
   void finish() override {
     if (failure_) return;
     guarded([&] { close(); });
@@ -70,7 +76,7 @@ class FileSeries final : public ChunkTarget {
   [[nodiscard]] std::filesystem::path next_path() const {
     if (!splits()) return series_.path;
     std::array<char, 16> number{};
-    std::snprintf(number.data(), number.size(), "_%04zu", files_.size() + 1);
+    std::snprintf(number.data(), number.size(), "_%04zu", parts_ + 1);
     std::filesystem::path path = series_.path;
     return path.replace_filename(series_.path.stem().string() + number.data() +
                                  series_.path.extension().string());
@@ -80,6 +86,7 @@ class FileSeries final : public ChunkTarget {
     const std::filesystem::path path = next_path();
     auto sink = create_file(path);
     files_.push_back(path);
+    ++parts_;
     file_ = std::make_unique<FileWriter>(std::move(sink), options_.header, options_.layout);
     schemas_ = channels_ = 0;
     file_begin_.reset();
@@ -130,6 +137,7 @@ class FileSeries final : public ChunkTarget {
   FileOptions options_;
   const Definitions& definitions_;
   std::unique_ptr<FileWriter> file_;
+  std::size_t parts_ = 0;    // of the series
   std::size_t schemas_ = 0;  // of the definitions, in this file
   std::size_t channels_ = 0;
   std::optional<Nanoseconds> file_begin_;

@@ -36,6 +36,12 @@ Tail::~Tail() {
   ::close(fd_);
 }
 
+void Tail::rename(std::filesystem::path path) {
+  std::error_code ignored;
+  std::filesystem::rename(path_, path, ignored);
+  path_ = std::move(path);
+}
+
 void Tail::remove() {
   std::error_code ignored;
   std::filesystem::remove(path_, ignored);

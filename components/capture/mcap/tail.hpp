@@ -27,6 +27,8 @@ class Tail {
 
   /// Memory for the records of one chunk at a time; nothing where the disk has no room for it.
   [[nodiscard]] std::unique_ptr<Slot> add_slot(std::size_t capacity);
+  /// It belongs to a capture of another name from now on.
+  void rename(std::filesystem::path path);
   /// The capture is whole without it.
   void remove();
 

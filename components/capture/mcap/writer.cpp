@@ -153,6 +153,18 @@ void Writer::add(const Metadata& metadata, Where where) {
   post([this, metadata, where] { target_->add(metadata, where); });
 }
 
+void Writer::begin_anew(const std::filesystem::path& path) {
+  const std::lock_guard lock(mutex_);
+  if (closed_) return;
+  hand_over();
+  schemas_told_ = channels_told_ = 0;
+  has_new_definitions_ = true;
+  post([this, path] {
+    target_->begin_anew(path);
+    if (tail_) tail_->rename(Tail::path_of(path));
+  });
+}
+
 void Writer::flush() {
   std::promise<void> done;
   {

@@ -72,6 +72,10 @@ class Writer {
   void attach(const Attachment& attachment, Where where = Where::kEveryFile);
   void add(const Metadata& metadata, Where where = Where::kEveryFile);
 
+  /// The time of the messages begins anew, earlier than it was: what comes now goes into a file of
+  /// this name (its parts, where files are split), and a ring keeps nothing of what was before.
+  void begin_anew(const std::filesystem::path& path);
+
   /// Waits until everything written so far has been given to the system.
   void flush();
   /// Writes what the ring holds, and what is being filled, to a complete file; the ring keeps it.

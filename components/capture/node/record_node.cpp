@@ -19,6 +19,8 @@ namespace {
 constexpr auto kTick = std::chrono::milliseconds(200);
 /// That long after a loss the recorder is degraded; the account of it stays in the file.
 constexpr auto kLossIsNews = std::chrono::seconds(10);
+/// Less is no other time: who takes up the clock of one that died may be a little behind.
+constexpr auto kClockSetBack = std::chrono::seconds(1);
 /// Samples that came before the first clock message, at most.
 constexpr std::size_t kMostEarly = 100'000;
 
@@ -154,7 +156,7 @@ void RecordNode::receive(const Heard& heard, const RawSample& sample) {
   if (heard.role == Role::kClock && node_.options().sim_time) {
     rosgraph_msgs::msg::Clock message;
     if (runtime::from_wire(sample.bytes, message)) {
-      if (const auto time = conversions::from_msg(message)) sim_now_ = to_nanoseconds(*time);
+      if (const auto time = conversions::from_msg(message)) follow_clock(*time);
     }
   } else if (heard.role != Role::kNone) {
     {
@@ -171,6 +173,15 @@ void RecordNode::receive(const Heard& heard, const RawSample& sample) {
     early_.clear();
   }
   write(heard, sample, log_time);
+}
+
+void RecordNode::follow_clock(Time time) {
+  if (time + kClockSetBack < now()) {
+    node_.log().warning("the clock was set back from {:.3f} s to {:.3f} s: a new capture begins",
+                        to_seconds(now().time_since_epoch()), to_seconds(time.time_since_epoch()));
+    recording_.begin_anew(new_path(""));
+  }
+  sim_now_ = to_nanoseconds(time);
 }
 
 void RecordNode::keep_early(const Heard& heard, const RawSample& sample) {

@@ -45,6 +45,7 @@ class RecordNode {
   TrafficTap::Listener listener();
   const void* add_writer(const runtime::DiscoveredEndpoint& endpoint);
   void receive(const Heard& heard, const runtime::RawSample& sample);
+  void follow_clock(Time time);
   void keep_early(const Heard& heard, const runtime::RawSample& sample);
   void write(const Heard& heard, const runtime::RawSample& sample, Time log_time);
   void handle_news();

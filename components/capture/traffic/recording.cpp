@@ -45,17 +45,30 @@ std::uint16_t Recording::add_channel(const WriterInfo& writer) {
                                                       {"dds_type", writer.dds_type},
                                                       {"keyed", writer.keyed ? "true" : "false"}});
   const std::scoped_lock lock(mutex_);
-  accounts_[channel].topic = writer.topic;
+  for (auto& [id, other] : accounts_) {
+    // Its program was started again: the last word of the one before counts no longer.
+    const bool is_successor = other.topic == writer.topic && other.component == writer.component;
+    if (id != channel && is_successor) other.last_word.reset();
+  }
+  Account& account = accounts_[channel];
+  account.topic = writer.topic;
+  account.component = writer.component;
+  account.is_latched = writer.qos.transient_local;
   return channel;
+}
+
+bool Recording::put(std::uint16_t channel, std::uint64_t sequence, Time log_time, Time publish_time,
+                    std::span<const std::uint8_t> bytes) {
+  return writer_->write({.channel_id = channel,
+                         .sequence = static_cast<std::uint32_t>(sequence),
+                         .log_time = to_mcap(log_time),
+                         .publish_time = to_mcap(publish_time),
+                         .data = std::as_bytes(bytes)});
 }
 
 bool Recording::write(std::uint16_t channel, std::uint64_t sequence, Time log_time,
                       Time publish_time, std::span<const std::uint8_t> bytes) {
-  const bool taken = writer_->write({.channel_id = channel,
-                                     .sequence = static_cast<std::uint32_t>(sequence),
-                                     .log_time = to_mcap(log_time),
-                                     .publish_time = to_mcap(publish_time),
-                                     .data = std::as_bytes(bytes)});
+  const bool taken = put(channel, sequence, log_time, publish_time, bytes);
   const std::scoped_lock lock(mutex_);
   Account& account = accounts_.at(channel);
   // What a writer wrote before it was found does not count.
@@ -64,7 +77,33 @@ bool Recording::write(std::uint16_t channel, std::uint64_t sequence, Time log_ti
   }
   account.last = std::max(account.last, sequence);
   ++(taken ? account.messages : account.refused);
+  if (account.is_latched) {
+    account.last_word = {sequence, log_time, publish_time, {bytes.begin(), bytes.end()}};
+  }
+  newest_ = std::max(newest_, log_time);
+  if (begin_ == Time{}) {
+    begin_ = log_time;
+    if (!is_ring()) repeat_last_words(begin_);
+  }
   return taken;
+}
+
+void Recording::repeat_last_words(Time begin) {
+  for (auto& [channel, account] : accounts_) {
+    if (!account.last_word || account.last_word->log_time >= begin) continue;
+    LastWord& word = *account.last_word;
+    word.log_time = begin;
+    put(channel, word.sequence, begin, word.publish_time, word.bytes);
+  }
+}
+
+void Recording::begin_anew(const std::filesystem::path& path) {
+  const std::scoped_lock lock(mutex_);
+  writer_->begin_anew(path);
+  begin_ = newest_ = Time{};
+  for (auto& [channel, account] : accounts_) {
+    if (account.last_word) account.last_word->log_time = Time{};
+  }
 }
 
 void Recording::attach(const std::string& name, const std::string& media_type,
@@ -86,6 +125,8 @@ void Recording::tick(Time now) {
 
 std::future<std::uint64_t> Recording::save(const std::filesystem::path& path) {
   std::filesystem::create_directories(path.parent_path());
+  const std::scoped_lock lock(mutex_);
+  repeat_last_words(std::max(begin_, newest_ - options_.last));
   return writer_->snapshot(path);
 }
 

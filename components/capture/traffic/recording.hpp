@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -61,9 +62,13 @@ class Recording {
   void attach(const std::string& name, const std::string& media_type, std::string_view data,
               Time now);
   void note(const std::string& name, const std::map<std::string, std::string>& facts);
+  /// The clock was set back: what comes now goes into a file of this name; a ring begins anew.
+  /// Writers' last words on latched topics are said again in it.
+  void begin_anew(const std::filesystem::path& path);
   /// Now and then: what is old enough goes to the disk.
   void tick(Time now);
-  /// The ring to a file; the number of messages, or what went wrong.
+  /// The ring to a file, with the last words on latched topics that are older than it, dated to its
+  /// begin; the number of messages, or what went wrong.
   [[nodiscard]] std::future<std::uint64_t> save(const std::filesystem::path& path);
   [[nodiscard]] bool is_ring() const { return options_.last > Duration{0}; }
 
@@ -74,18 +79,35 @@ class Recording {
   [[nodiscard]] std::vector<TopicReport> report() const;
 
  private:
+  /// The last word of a writer on a latched topic.
+  struct LastWord {
+    std::uint64_t sequence = 0;
+    Time log_time{};  ///< 0: not since the time began anew
+    Time publish_time{};
+    std::vector<std::uint8_t> bytes;
+  };
   struct Account {
     std::string topic;
+    std::string component;
+    bool is_latched = false;
+    std::optional<LastWord> last_word{};
     std::uint64_t last = 0;  ///< number of the last sample
     std::uint64_t messages = 0;
     std::uint64_t missed = 0;
     std::uint64_t refused = 0;
   };
 
+  bool put(std::uint16_t channel, std::uint64_t sequence, Time log_time, Time publish_time,
+           std::span<const std::uint8_t> bytes);
+  /// Last words from before that time, as if they were said at it.
+  void repeat_last_words(Time begin);
+
   RecordingOptions options_;
   std::unique_ptr<mcap::Writer> writer_;
   mutable std::mutex mutex_;
   std::map<std::uint16_t, Account> accounts_;
+  Time begin_{};   ///< log time of the first message, since it began anew
+  Time newest_{};  ///< likewise of the last
   bool closed_ = false;
 };
 

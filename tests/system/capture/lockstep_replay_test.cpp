@@ -30,7 +30,7 @@ std::string recorded_launch(const std::string& launch_file) {
          (std::filesystem::path(COOP_SOURCE_DIR) / "config/launch" / launch_file).string() +
          "]\nlockstep: true\ntrace: true\nvariables: {rate: 0}\n"
          "components:\n"
-         "  record: {parameters: {exclude: [\"/camera/*\"]}}\n"
+         "  record: {parameters: {last: 0, exclude: [\"/camera/*\"]}}\n"
          "  simulator: {on_exit: shutdown, parameters: {duration: 30}}\n";
 }
 

@@ -109,6 +109,23 @@ TEST_F(TailTest, ThePartsOfACaptureHaveOne) {
   EXPECT_THAT(lines_of(first), ElementsAre("/a 0 first"));
 }
 
+TEST_F(TailTest, AFileThatBeginsAnewHasItWithAllThatExplainsIt) {
+  open({path()});
+  const auto a = channel("/a");
+  write(a, 100, "before");
+  const auto second = folder_.path() / "b.mcap";
+  writer_->begin_anew(second);
+  writer_->flush();
+  write(a, 1, "after");
+  EXPECT_FALSE(std::filesystem::exists(Tail::path_of(path())));
+  Reader killed(second);
+  EXPECT_FALSE(killed.summary().complete);
+  EXPECT_THAT(lines_of(killed), ElementsAre("/a 1 after"));
+  Reader first(path());
+  EXPECT_TRUE(first.summary().complete);
+  EXPECT_THAT(lines_of(first), ElementsAre("/a 100 before"));
+}
+
 TEST_F(TailTest, AMessageLargerThanAChunkIsTakenWithoutIt) {
   open({path()});
   const auto a = channel("/a");

@@ -171,5 +171,71 @@ TEST_F(Recordings, NonsenseIsRefusedInOneLine) {
   EXPECT_THROW(PlayList(folder_.path() / "none", {}), std::exception);
 }
 
+TEST_F(Recordings, GoOnInANewFileWhenTheClockWasSetBack) {
+  Recording recording(options());
+  WriterInfo map = writer("/map", "amcl");
+  map.qos.transient_local = true;
+  const auto latched = recording.add_channel(map);
+  const auto stream = recording.add_channel(writer("/scan", "lidar"));
+  recording.write(latched, 1, at(100), at(1), letter('m'));
+  recording.write(stream, 1, at(101), at(2), letter('a'));
+  recording.begin_anew(folder_.path() / "y.mcap");
+  recording.write(stream, 2, at(3), at(3), letter('b'));
+  recording.write(stream, 3, at(4), at(4), letter('c'));
+  recording.close();
+  EXPECT_EQ(recording.report()[1].missed, 0U);
+  PlayList before(path(), {});
+  EXPECT_EQ(rest_of(before), "ma");
+  EXPECT_EQ(before.end(), at(101));
+  PlayList after(folder_.path() / "y.mcap", {});
+  EXPECT_EQ(after.begin(), at(3));
+  EXPECT_EQ(letters(after.all_of("/map")), "m") << "a late reader would have got it";
+  EXPECT_FALSE(after.was_cut());
+  EXPECT_TRUE(mcap::Reader(path()).summary().complete);
+}
+
+TEST_F(Recordings, ARingTellsTheLastWordsThatAreOlderThanItself) {
+  RecordingOptions ring = options();
+  ring.last = std::chrono::seconds(10);
+  ring.writer.chunk_age = 1'000'000'000;
+  Recording recording(ring);
+  WriterInfo map = writer("/map", "amcl");
+  map.qos.transient_local = true;
+  const auto old = recording.add_channel(map);
+  recording.write(old, 1, at(0.5), at(0.5), letter('o'));
+  map.id = "its successor";
+  const auto latched = recording.add_channel(map);
+  const auto stream = recording.add_channel(writer("/scan", "lidar"));
+  recording.write(latched, 1, at(1), at(1), letter('m'));
+  for (int i = 2; i < 40; ++i) {
+    recording.write(stream, static_cast<std::uint64_t>(i), at(i), at(i), letter('s'));
+  }
+  EXPECT_GT(recording.save(path()).get(), 9U);
+  PlayList saved(path(), {});
+  EXPECT_GE(saved.begin(), at(28)) << "nothing is older than the ring";
+  EXPECT_EQ(letters(saved.all_of("/map")), "m");
+  // A second one tells it as well, and no more often.
+  EXPECT_GT(recording.save(folder_.path() / "y.mcap").get(), 9U);
+  PlayList again(folder_.path() / "y.mcap", {});
+  EXPECT_EQ(letters(again.all_of("/map")), "m");
+}
+
+TEST_F(Recordings, ARingForgetsAnotherTime) {
+  RecordingOptions ring = options();
+  ring.last = std::chrono::seconds(10);
+  Recording recording(ring);
+  const auto stream = recording.add_channel(writer("/scan", "lidar"));
+  for (int i = 0; i < 20; ++i) {
+    recording.write(stream, static_cast<std::uint64_t>(i), at(100 + i), at(i), letter('a'));
+  }
+  recording.begin_anew(path());
+  for (int i = 0; i < 5; ++i) {
+    recording.write(stream, static_cast<std::uint64_t>(20 + i), at(1 + i), at(i), letter('b'));
+  }
+  EXPECT_EQ(recording.save(path()).get(), 5U);
+  PlayList saved(path(), {});
+  EXPECT_EQ(rest_of(saved), "bbbbb");
+}
+
 }  // namespace
 }  // namespace coop::capture
