@@ -45,27 +45,37 @@ void expect_no_holes(const std::filesystem::path& file) {
   EXPECT_FALSE(last.empty());
 }
 
-/// Waits until so much simulated time has passed.
-bool wait_for_clock(RunningSystem& system, double seconds) {
-  Listener listener(system.domain(), "watch");
-  double now = 0.0;
-  listener.node().subscribe<rosgraph_msgs::msg::Clock>(
-      "clock", runtime::Qos::kEvent, [&](const rosgraph_msgs::msg::Clock& message) {
-        now = message.clock().sec() + 1e-9 * message.clock().nanosec();
-      });
-  double begun = 0.0;
-  return wait_until([&] {
-    listener.look();
-    if (begun == 0.0) begun = now;
-    return now - begun >= seconds;
-  });
-}
+/// The simulated time of a system. It has a heartbeat like any program: the recorder would take its
+/// end for a death, so it is to live as long as the test.
+class SimulatedTime {
+ public:
+  explicit SimulatedTime(const RunningSystem& system) : listener_(system.domain(), "watch") {
+    listener_.node().subscribe<rosgraph_msgs::msg::Clock>(
+        "clock", runtime::Qos::kEvent, [this](const rosgraph_msgs::msg::Clock& message) {
+          now_ = message.clock().sec() + 1e-9 * message.clock().nanosec();
+        });
+  }
+  /// Until so much of it has passed.
+  bool pass(double seconds) {
+    double begun = 0.0;
+    return wait_until([&] {
+      listener_.look();
+      if (begun == 0.0) begun = now_;
+      return now_ - begun >= seconds;
+    });
+  }
+
+ private:
+  Listener listener_;
+  double now_ = 0.0;
+};
 
 TEST(Record, ASystemsCaptureIsCompleteWhenItIsStopped) {
   const LaunchText launch(kSmallSystem);
   RunningSystem system(launch.path());
+  SimulatedTime time(system);
   ASSERT_TRUE(system.wait_for_state("lidar_driver", "ready")) << system.launcher().output();
-  ASSERT_TRUE(wait_for_clock(system, 3.0));
+  ASSERT_TRUE(time.pass(3.0));
   const auto run = system.run_folder();
   system.launcher().signal(SIGINT);
   ASSERT_TRUE(system.launcher().wait());
@@ -106,15 +116,16 @@ TEST(Record, ASystemsCaptureIsCompleteWhenItIsStopped) {
 TEST(Record, KilledInMidRunItIsStartedAgainAndBothFilesCanBeRead) {
   const LaunchText launch(kSmallSystem);
   RunningSystem system(launch.path());
+  SimulatedTime time(system);
   ASSERT_TRUE(system.wait_for_state("lidar_driver", "ready")) << system.launcher().output();
-  ASSERT_TRUE(wait_for_clock(system, 2.0));
+  ASSERT_TRUE(time.pass(2.0));
   system.kill_component("record");
   ASSERT_TRUE(system.wait_for([](const launcher::SystemView& view) {
     return std::ranges::any_of(view.rows, [](const launcher::Row& row) {
       return row.name == "record" && row.state == "ready" && row.restarts > 0;
     });
   }));
-  ASSERT_TRUE(wait_for_clock(system, 2.0));
+  ASSERT_TRUE(time.pass(2.0));
   const auto run = system.run_folder();
   system.launcher().signal(SIGINT);
   ASSERT_TRUE(system.launcher().wait());
@@ -139,8 +150,9 @@ TEST(Record, TheRingIsWrittenWhenAComponentDiesAndWhenAskedFor) {
   text.replace(text.find("chunk_age: 0.5"), 14, "chunk_age: 0.5, last: 60, save_delay: 0.5");
   const LaunchText launch(text);
   RunningSystem system(launch.path());
+  SimulatedTime time(system);
   ASSERT_TRUE(system.wait_for_state("lidar_driver", "ready")) << system.launcher().output();
-  ASSERT_TRUE(wait_for_clock(system, 1.0));
+  ASSERT_TRUE(time.pass(1.0));
   const auto run = system.run_folder();
   EXPECT_THAT(captures_of(run), IsEmpty());
 
