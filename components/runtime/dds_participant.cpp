@@ -99,10 +99,19 @@ void join_server(const DdsOptions& options, dds::DomainParticipantQos& qos) {
   discovery.m_DiscoveryServers.push_back(attributes);
 }
 
+/// Everybody's introductions come through the guard, which Fast DDS does not let stand before
+/// shared memory; data go there all the same.
+void be_introduced_by_udp(dds::DomainParticipantQos& qos) {
+  auto& builtin = qos.wire_protocol().builtin;
+  builtin.metatrafficUnicastLocatorList.push_back(udp_locator("0.0.0.0", 0));
+  builtin.metatrafficMulticastLocatorList.push_back(udp_locator("239.255.0.1", 0));
+}
+
 void add_security(const DdsOptions& options, dds::DomainParticipantQos& qos) {
   // The first announcement is not sent (Introductions): the next comes soon.
   auto& announcements = qos.wire_protocol().builtin.discovery_config.initial_announcements;
   announcements = {kSoonAnnouncements, kSoonPeriod};
+  if (options.settings.transport == "shm") be_introduced_by_udp(qos);
   const KeyFiles files(options.settings.keys, options.participant_name);
   const auto add = [&qos](const std::string& name, const std::string& value) {
     qos.properties().properties().emplace_back(name, value);

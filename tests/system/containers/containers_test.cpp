@@ -9,6 +9,7 @@
 #include "core/atomic_file.hpp"
 #include "system/containers/composition.hpp"
 #include "system/mission/mission_watch.hpp"
+#include "system/security/guest.hpp"
 #include "system/support/test_domain.hpp"
 
 namespace coop::test {
@@ -21,6 +22,9 @@ const fs::path kSource = COOP_SOURCE_DIR;
 constexpr const char* kImage = "coop:test";
 constexpr double kMostMegabytes = 250;
 constexpr std::chrono::minutes kMissionLimit{8};
+const fs::path kLaunch = kSource / "config/launch/collect.yaml";
+/// The user in the image (docker/Dockerfile).
+constexpr const char* kUser = "10001:10001";
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -91,9 +95,8 @@ class Containers : public ::testing::Test {
   /// map by where both lie).
   void write_composition() {
     const auto compose = run_launcher(
-        {"compose", (kSource / "config/launch/collect.yaml").string(), "--domain",
-         std::to_string(test_domain()), "--set", "world=tests/data/two_eggs.world.yaml", "--set",
-         "sequencer.mission.expected_eggs=2"},
+        {"compose", kLaunch.string(), "--domain", std::to_string(test_domain()), "--set",
+         "world=tests/data/two_eggs.world.yaml", "--set", "sequencer.mission.expected_eggs=2"},
         folder_.path());
     ASSERT_EQ(compose.code, 0) << compose.output;
     write_file_atomically(folder_.path() / "compose.yaml", compose.output);
@@ -133,6 +136,44 @@ class Containers : public ::testing::Test {
       EXPECT_TRUE(wait_until([&] { return composition_->restarts(service) > before; })) << service;
     }
     EXPECT_TRUE(composition_->wait_until_healthy(services));
+  }
+
+  /// The same composition with an override laid over it comes up, and who has `keys` hears it.
+  void expect_heard_with(const std::string& name, const fs::path& keys) {
+    const auto lines =
+        run_launcher({"compose", kLaunch.string(), "--override", name}, folder_.path());
+    ASSERT_EQ(lines.code, 0) << lines.output;
+    const fs::path file = folder_.path() / (name + ".yaml");
+    write_file_atomically(file, lines.output);
+    const Composition composition(
+        "coop-test-" + name + "-" + std::to_string(test_domain()),
+        {folder_.path() / "compose.yaml", folder_.path() / "data.yaml", file});
+    const auto begin = std::chrono::steady_clock::now();
+    composition.compose({"up", "--detach"});
+    EXPECT_TRUE(composition.wait_until_healthy(services_)) << composition.logs();
+    std::cout << name << ".yaml: up to all healthy: " << seconds_since(begin) << " s" << std::endl;
+    Guest person("person", "", keys);
+    person.listen_to_scans();
+    std::optional<Guest> nobody;
+    if (!keys.empty()) {
+      nobody.emplace("person", "", fs::path());
+      nobody->listen_to_scans();
+    }
+    EXPECT_TRUE(wait_until([&] {
+      person.look();
+      if (nobody) nobody->look();
+      return person.scans() >= 10;
+    })) << composition.logs();
+    EXPECT_EQ(nobody ? nobody->scans() : 0, 0);
+  }
+  /// Keys that the containers' user may read.
+  [[nodiscard]] fs::path make_keys() const {
+    const fs::path keys = folder_.path() / "keys";
+    need_tool(COOP_BIN_DIR "/keys", {"make", kLaunch.string(), "--folder", keys.string(),
+                                     "--domain", std::to_string(test_domain())});
+    need_tool("chown", {"--recursive", kUser, keys.string()});
+    setenv("COOP_KEYS", keys.c_str(), 1);
+    return keys;
   }
 
   TemporaryFolder folder_;
@@ -183,6 +224,9 @@ TEST_F(Containers, AMissionSurvivesKilledPausedStoppedAndReplacedContainers) {
   composition_->compose({"down", "--volumes"});
   std::cout << "down: " << seconds_since(begin) << " s" << std::endl;
   EXPECT_TRUE(composition_->states().empty());
+
+  expect_heard_with("host", {});
+  expect_heard_with("security", make_keys());
 }
 
 }  // namespace

@@ -101,6 +101,15 @@ TEST(ParticipantQos, remembers_who_is_silent_for_longer_where_a_server_knows_eve
   EXPECT_EQ(lease({"lease=7"}), 7);
 }
 
+TEST(ParticipantQos, is_introduced_by_udp_alone_where_there_are_keys_and_shared_memory) {
+  const auto kept = qos_of({"security=on", "keys=/keys", "transport=shm"});
+  EXPECT_EQ(kept.wire_protocol().builtin.metatrafficUnicastLocatorList.size(), 1U);
+  EXPECT_EQ(kept.wire_protocol().builtin.metatrafficMulticastLocatorList.size(), 1U);
+  EXPECT_TRUE(kept.wire_protocol().default_unicast_locator_list.empty());
+  EXPECT_TRUE(
+      qos_of({"transport=shm"}).wire_protocol().builtin.metatrafficUnicastLocatorList.empty());
+}
+
 TEST(ParticipantQos, takes_its_own_keys_out_of_the_folder) {
   const auto qos = qos_of({"security=on", "keys=/keys"});
   EXPECT_EQ(property(qos, "dds.sec.auth.builtin.PKI-DH.private_key"), "file:///keys/amcl/key.pem");
