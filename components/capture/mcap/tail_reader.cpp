@@ -108,7 +108,7 @@ void append_chunk(ByteBuffer& out, Bytes records) {
 /// Of NAME_0002.mcap also that of NAME.mcap: the parts of a capture have one tail.
 std::filesystem::path existing_tail(const std::filesystem::path& capture) {
   std::error_code error;
-  const auto own = Tail::path_of(capture);
+  auto own = Tail::path_of(capture);
   if (std::filesystem::exists(own, error)) return own;
   const std::string stem = capture.stem().string();
   const auto bar = stem.rfind('_');

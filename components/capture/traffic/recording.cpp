@@ -155,6 +155,7 @@ std::vector<TopicReport> Recording::report() const {
     topic.refused += account.refused;
   }
   std::vector<TopicReport> all;
+  all.reserve(topics.size());
   for (auto& [name, topic] : topics) all.push_back(std::move(topic));
   return all;
 }
