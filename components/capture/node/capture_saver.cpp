@@ -2,6 +2,7 @@
 
 #include <ctime>
 
+#include "capture/traffic/kept_files.hpp"
 #include "conversions/time.hpp"
 #include "coop_msgs/msg/ComponentStatus.h"
 #include "coop_msgs/msg/EmergencyStop.h"
@@ -13,6 +14,13 @@ namespace coop::capture {
 using Bytes = std::vector<std::uint8_t>;
 using Wall = std::chrono::steady_clock;
 
+namespace {
+
+/// In the names of captures that nobody asked for.
+constexpr const char* kOfFault = "-fault";
+
+}  // namespace
+
 std::string date_and_time() {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
@@ -23,7 +31,7 @@ std::string date_and_time() {
 }
 
 CaptureSaver::CaptureSaver(runtime::Node& node, Recording& recording, const RecordConfig& config,
-                           std::function<std::filesystem::path()> new_path)
+                           std::function<std::filesystem::path(const std::string& kind)> new_path)
     : node_(node),
       recording_(recording),
       config_(config),
@@ -86,7 +94,7 @@ void CaptureSaver::begin(const std::string& reason, const std::string& request_i
   save_->due = Wall::now() + delay;
   save_->reason = first_reason;
   save_->request_id = request_id;
-  save_->path = new_path_();
+  save_->path = new_path_(request_id.empty() ? kOfFault : "-snapshot");
 }
 
 void CaptureSaver::work() {
@@ -99,6 +107,10 @@ void CaptureSaver::work() {
     }
     if (save_->messages.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
     answer(*save_, true, std::to_string(save_->messages.get()) + " messages: " + save_->reason);
+    if (config_.keep > 0) {
+      keep_newest(save_->path.parent_path(), node_.name() + "-", std::string(kOfFault),
+                  static_cast<std::size_t>(config_.keep));
+    }
   } catch (const std::exception& problem) {
     answer(*save_, false, problem.what());
   }

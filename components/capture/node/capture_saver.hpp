@@ -22,9 +22,9 @@ namespace coop::capture {
 /// of it on the executor.
 class CaptureSaver {
  public:
-  /// `new_path`: where the next one goes.
+  /// `new_path`: where the next one of a kind goes.
   CaptureSaver(runtime::Node& node, Recording& recording, const RecordConfig& config,
-               std::function<std::filesystem::path()> new_path);
+               std::function<std::filesystem::path(const std::string& kind)> new_path);
 
   /// Messages as they came: component_status, emergency_stop, save_capture.
   void heartbeat(const std::vector<std::uint8_t>& bytes);
@@ -54,7 +54,7 @@ class CaptureSaver {
   runtime::Node& node_;
   Recording& recording_;
   RecordConfig config_;
-  std::function<std::filesystem::path()> new_path_;
+  std::function<std::filesystem::path(const std::string& kind)> new_path_;
   runtime::Publisher<coop_msgs::msg::SaveCaptureResult> results_;
   FaultWatch faults_;
   bool system_stops_ = false;

@@ -31,6 +31,12 @@ void RecordConfig::describe(config::Fields& fields) {
                  .max = 600});
   fields.integer("ring_size", ring_size,
                  {.unit = "MB", .help = "memory for the ring, compressed", .min = 1, .max = 65536});
+  fields.integer(
+      "keep", keep,
+      {.help = "captures of faults in the folder, the oldest go; 0: all (those asked for "
+               "stay)",
+       .min = 0,
+       .max = 100000});
   fields.number("split_size", split_size,
                 {.unit = "MB", .help = "size of a file; 0: no limit", .min = 0, .max = 1e6});
   fields.number("split_time", split_time,

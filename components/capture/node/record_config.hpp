@@ -18,6 +18,7 @@ struct RecordConfig {
   bool save_on_emergency_stop = true;
   double save_delay = 1.0;  ///< s between what happened and the writing of the ring
   int ring_size = 512;      ///< MB
+  int keep = 20;            ///< captures of faults; 0: all
   double split_size = 0.0;  ///< MB; 0: one file
   double split_time = 0.0;  ///< s; 0: one file
   std::string compression = "zstd";

@@ -55,7 +55,7 @@ RecordNode::RecordNode(runtime::Node& node, const Config& config)
       config_(config),
       folder_(folder_of(node, config)),
       recording_(config.recording(new_path(""))),
-      saver_(node, recording_, config, [this] { return new_path("-saved"); }) {
+      saver_(node, recording_, config, [this](const std::string& kind) { return new_path(kind); }) {
   describe_run();
   runtime::Executor& executor = node.executor();
   tap_ = std::make_unique<TrafficTap>(

@@ -1,0 +1,55 @@
+#include "capture/traffic/kept_files.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "support/temporary_folder.hpp"
+
+namespace coop::capture {
+namespace {
+
+class KeptFiles : public ::testing::Test {
+ protected:
+  /// The n-th file, each a second younger than the one before.
+  void make(const std::string& name) {
+    const auto path = folder_.path() / name;
+    std::ofstream(path) << "x";
+    std::filesystem::last_write_time(path, begin_ + std::chrono::seconds(made_++));
+  }
+  [[nodiscard]] std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+      all.push_back(entry.path().filename().string());
+    }
+    return all;
+  }
+  test::TemporaryFolder folder_;
+  std::filesystem::file_time_type begin_ = std::filesystem::file_time_type::clock::now();
+  int made_ = 0;
+};
+
+TEST_F(KeptFiles, AreTheNewestOfTheirKindAndAllOthers) {
+  make("record-3-fault.mcap");  // the oldest, whatever its name says
+  make("record-1-fault.mcap");
+  make("record-2-snapshot.mcap");
+  make("record-2-fault-2.mcap");
+  make("record-2.mcap");
+  make("other-1-fault.mcap");
+  make("record-notes-fault.txt");
+  keep_newest(folder_.path(), "record-", "-fault", 2);
+  EXPECT_THAT(names(), ::testing::UnorderedElementsAre(
+                           "record-1-fault.mcap", "record-2-fault-2.mcap", "record-2-snapshot.mcap",
+                           "record-2.mcap", "other-1-fault.mcap", "record-notes-fault.txt"));
+}
+
+TEST_F(KeptFiles, AreAllWhereThereAreFewAndNoneWhereThereIsNoFolder) {
+  make("record-1-fault.mcap");
+  keep_newest(folder_.path(), "record-", "-fault", 2);
+  EXPECT_THAT(names(), ::testing::ElementsAre("record-1-fault.mcap"));
+  keep_newest(folder_.path() / "none", "record-", "-fault", 2);
+}
+
+}  // namespace
+}  // namespace coop::capture
