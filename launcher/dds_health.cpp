@@ -62,17 +62,19 @@ Health health_of(std::uint8_t state) {
 }  // namespace
 
 struct DdsHealth::Impl {
+  runtime::Transport& transport;
   Inbox<ComponentStatus> inbox;
 };
 
 DdsHealth::DdsHealth(runtime::Transport& transport)
-    : impl_(new Impl{{transport, "component_status", runtime::Qos::kHeartbeat}}) {}
+    : impl_(new Impl{transport, {transport, "component_status", runtime::Qos::kHeartbeat}}) {}
 DdsHealth::~DdsHealth() = default;
 int DdsHealth::wake_fd() const {
   return impl_->inbox.fd();
 }
 
 std::vector<Heartbeat> DdsHealth::take() {
+  impl_->transport.mend();
   std::vector<Heartbeat> heartbeats;
   impl_->inbox.drain([&](const ComponentStatus& status) {
     heartbeats.push_back({.component = status.name(),

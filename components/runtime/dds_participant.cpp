@@ -26,10 +26,10 @@ namespace {
 
 constexpr std::uint32_t kSocketBuffer = 4U << 20U;
 constexpr std::uint32_t kSharedSegment = 8U << 20U;
-constexpr std::int32_t kLease = 2;  // s
+constexpr std::chrono::seconds kLease{2};
 /// With a server it must outlast a cut: who has been given up by some and not by all stays lost
 /// (docs/hosts.md).
-constexpr std::int32_t kServedLease = 18;
+constexpr std::chrono::seconds kServedLease{18};
 constexpr const char* kLoopback = "127.0.0.1";
 constexpr std::uint32_t kSoonAnnouncements = 12;
 const Duration_t kSoonPeriod{0, 40'000'000};
@@ -138,14 +138,18 @@ void add_security(const DdsOptions& options, dds::DomainParticipantQos& qos) {
 
 }  // namespace
 
+std::chrono::seconds lease(const DdsSettings& settings) {
+  if (settings.lease > 0) return std::chrono::seconds(settings.lease);
+  return settings.discovery == "server" ? kServedLease : kLease;
+}
+
 dds::DomainParticipantQos participant_qos(dds::DomainParticipantQos base, const DdsOptions& options,
                                           const std::shared_ptr<Introductions>& introductions) {
   const DdsSettings& settings = options.settings;
   base.name(options.participant_name);
   add_transports(settings, introductions, base);
   auto& discovery = base.wire_protocol().builtin.discovery_config;
-  const std::int32_t usual_lease = settings.discovery == "server" ? kServedLease : kLease;
-  discovery.leaseDuration = Duration_t(settings.lease > 0 ? settings.lease : usual_lease, 0);
+  discovery.leaseDuration = Duration_t(static_cast<std::int32_t>(lease(settings).count()), 0);
   discovery.leaseDuration_announcementperiod = Duration_t(0, 660'000'000);
   if (settings.discovery == "peers") add_peers(settings, base);
   if (settings.discovery == "server") join_server(options, base);

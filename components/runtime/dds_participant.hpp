@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <fastdds/dds/core/status/StatusMask.hpp>
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 
@@ -12,6 +13,9 @@ class DomainParticipantListener;
 namespace coop::runtime {
 
 struct Introductions;
+
+/// How long somebody who is not heard is remembered.
+[[nodiscard]] std::chrono::seconds lease(const DdsSettings& settings);
 
 /// The one place where settings become a participant: transports, discovery, lease, security.
 /// Throws config::Error for an interface or host that is not there.

@@ -1,24 +1,20 @@
 #include "runtime/dds_transport.hpp"
 
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/log/Log.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
-#include <fastdds/dds/publisher/qos/PublisherQos.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/subscriber/qos/SubscriberQos.hpp>
-#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
 #include <map>
 #include <mutex>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 
+#include "runtime/dds_membership.hpp"
 #include "runtime/dds_participant.hpp"
 #include "runtime/dds_qos.hpp"
 
@@ -26,23 +22,43 @@ namespace coop::runtime {
 
 namespace dds = eprosima::fastdds::dds;
 
+/// What is made in a participant, and made anew in its successor.
+class DdsEndpoint {
+ public:
+  virtual ~DdsEndpoint() = default;
+  virtual void enter() = 0;
+  virtual void leave() = 0;
+  /// From any thread: the one that uses it should look.
+  virtual void nudge() {}
+};
+
 struct DdsTransport::Impl {
   DdsOptions options;
-  dds::DomainParticipant* participant = nullptr;
-  dds::Publisher* publisher = nullptr;
-  dds::Subscriber* subscriber = nullptr;
-  std::mutex mutex;
-  std::map<std::string, dds::Topic*> topics;
+  bool is_served = options.settings.discovery == "server";
+  std::mutex endpoints_mutex;  ///< never held while Fast DDS is called
+  std::set<DdsEndpoint*> endpoints;
   std::weak_ptr<std::function<void()>> match_callback;
+  std::unique_ptr<Membership> membership;
+  /// Waits for the server while the other one has lost it.
+  std::unique_ptr<Membership> successor;
 
   explicit Impl(const DdsOptions& wanted);
-  ~Impl();
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
-  dds::Topic* topic(const std::string& name, const MessageType& type);
+  std::unique_ptr<Membership> join();
+  void add(DdsEndpoint& endpoint);
+  void remove(DdsEndpoint& endpoint);
+  bool join_anew();
 };
 
 namespace {
+
+/// Of the server itself (config/dds/discovery_server.xml): after that it is known to be gone.
+constexpr std::chrono::seconds kServerLease{2};
+/// Programs show one more often.
+constexpr std::chrono::seconds kSignOfLife{1};
+/// A server in reach is found sooner.
+constexpr std::chrono::seconds kPatience{3};
 
 [[noreturn]] void throw_dds(const std::string& what) {
   throw std::runtime_error("DDS: " + what);
@@ -69,6 +85,13 @@ class Matches {
       } else {
         counterparts_.erase(identity(guid));
       }
+    }
+    if (const auto callback = on_match_.lock()) (*callback)();
+  }
+  void clear() {
+    {
+      const std::scoped_lock lock(mutex_);
+      counterparts_.clear();
     }
     if (const auto callback = on_match_.lock()) (*callback)();
   }
@@ -117,22 +140,22 @@ std::uint64_t to_number(const eprosima::fastrtps::rtps::SequenceNumber_t& sequen
   return (static_cast<std::uint64_t>(sequence.high) << 32U) + sequence.low;
 }
 
-class DdsWriter : public Writer {
+template <class Impl>
+class DdsWriter : public Writer, private DdsEndpoint {
  public:
-  template <class Impl>
-  DdsWriter(const std::shared_ptr<Impl>& transport, dds::Topic* topic,
-            const dds::DataWriterQos& qos)
+  DdsWriter(const std::shared_ptr<Impl>& transport, const std::string& topic,
+            const MessageType& type, Qos intent)
       : transport_(transport),
-        listener_(transport->match_callback),
-        publisher_(transport->publisher),
-        writer_(publisher_->create_datawriter(topic, qos, &listener_,
-                                              dds::StatusMask::publication_matched())) {
-    if (writer_ == nullptr) throw_dds("cannot create a writer of " + topic->get_name());
-    id_ = identity(writer_->guid());
+        topic_(topic),
+        type_(type),
+        intent_(intent),
+        listener_(transport->match_callback) {
+    enter();
+    transport_->add(*this);
   }
   ~DdsWriter() override {
-    writer_->set_listener(nullptr);
-    publisher_->delete_datawriter(writer_);
+    transport_->remove(*this);
+    leave();
   }
   DdsWriter(const DdsWriter&) = delete;
   DdsWriter& operator=(const DdsWriter&) = delete;
@@ -142,6 +165,7 @@ class DdsWriter : public Writer {
     // The signature takes a mutable pointer; the generated serialisers only read.
     if (!writer_->write(const_cast<void*>(message))) return false;
     ++sequence_;
+    if (keeps_last_) last_[type_.key_of(message)] = type_.clone(message);
     return true;
   }
   std::uint64_t sequence() const override { return sequence_; }
@@ -158,32 +182,56 @@ class DdsWriter : public Writer {
   }
 
  private:
-  std::shared_ptr<void> transport_;  // keeps the participant while the writer lives
+  void enter() override {
+    dds::Publisher& publisher = *transport_->membership->publisher;
+    dds::DataWriterQos qos = publisher.get_default_datawriter_qos();
+    apply_intent(intent_, transport_->options, qos);
+    keeps_last_ =
+        transport_->is_served && qos.durability().kind == dds::TRANSIENT_LOCAL_DURABILITY_QOS;
+    writer_ = publisher.create_datawriter(transport_->membership->topic(topic_, type_), qos,
+                                          &listener_, dds::StatusMask::publication_matched());
+    if (writer_ == nullptr) throw_dds("cannot create a writer of " + topic_);
+    id_ = identity(writer_->guid());
+    sequence_ = 0;
+    for (const auto& [key, message] : last_) {
+      if (writer_->write(const_cast<void*>(message.get()))) ++sequence_;
+    }
+  }
+  void leave() override {
+    writer_->set_listener(nullptr);
+    transport_->membership->publisher->delete_datawriter(writer_);
+    listener_.matches.clear();
+  }
+
+  std::shared_ptr<Impl> transport_;  // keeps the participant while the writer lives
+  std::string topic_;
+  const MessageType& type_;
+  Qos intent_;
   WriterListener listener_;
-  dds::Publisher* publisher_;
-  dds::DataWriter* writer_;
+  dds::DataWriter* writer_ = nullptr;
   std::string id_;
   std::uint64_t sequence_ = 0;
+  bool keeps_last_ = false;
+  std::map<std::string, std::shared_ptr<const void>> last_;  ///< by key, for the next participant
 };
 
-class DdsReader : public Reader {
+template <class Impl>
+class DdsReader : public Reader, private DdsEndpoint {
  public:
-  template <class Impl>
-  DdsReader(const std::shared_ptr<Impl>& transport, dds::Topic* topic, const MessageType& type,
-            const dds::DataReaderQos& qos, std::function<void()> on_data)
+  DdsReader(const std::shared_ptr<Impl>& transport, const std::string& topic,
+            const MessageType& type, Qos intent, std::function<void()> on_data)
       : transport_(transport),
+        topic_(topic),
         type_(type),
-        listener_(std::move(on_data), transport->match_callback),
-        subscriber_(transport->subscriber),
-        reader_(subscriber_->create_datareader(topic, qos, &listener_,
-                                               dds::StatusMask::data_available()
-                                                   << dds::StatusMask::subscription_matched())) {
-    if (reader_ == nullptr) throw_dds("cannot create a reader of " + topic->get_name());
-    id_ = identity(reader_->guid());
+        intent_(intent),
+        on_data_(std::move(on_data)),
+        listener_(on_data_, transport->match_callback) {
+    enter();
+    transport_->add(*this);
   }
   ~DdsReader() override {
-    reader_->set_listener(nullptr);
-    subscriber_->delete_datareader(reader_);
+    transport_->remove(*this);
+    leave();
   }
   DdsReader(const DdsReader&) = delete;
   DdsReader& operator=(const DdsReader&) = delete;
@@ -217,11 +265,30 @@ class DdsReader : public Reader {
     return last_writer_name_;
   }
 
-  std::shared_ptr<void> transport_;
+  void enter() override {
+    dds::Subscriber& subscriber = *transport_->membership->subscriber;
+    dds::DataReaderQos qos = subscriber.get_default_datareader_qos();
+    apply_intent(intent_, transport_->options, qos);
+    reader_ = subscriber.create_datareader(
+        transport_->membership->topic(topic_, type_), qos, &listener_,
+        dds::StatusMask::data_available() << dds::StatusMask::subscription_matched());
+    if (reader_ == nullptr) throw_dds("cannot create a reader of " + topic_);
+    id_ = identity(reader_->guid());
+  }
+  void leave() override {
+    reader_->set_listener(nullptr);
+    transport_->membership->subscriber->delete_datareader(reader_);
+    listener_.matches.clear();
+  }
+  void nudge() override { on_data_(); }
+
+  std::shared_ptr<Impl> transport_;
+  std::string topic_;
   const MessageType& type_;
+  Qos intent_;
+  std::function<void()> on_data_;
   ReaderListener listener_;
-  dds::Subscriber* subscriber_;
-  dds::DataReader* reader_;
+  dds::DataReader* reader_ = nullptr;
   std::string id_;
   eprosima::fastrtps::rtps::GUID_t last_writer_;
   std::string last_writer_name_;
@@ -229,38 +296,45 @@ class DdsReader : public Reader {
 
 }  // namespace
 
-DdsTransport::Impl::Impl(const DdsOptions& wanted)
-    : options(wanted), participant(create_participant(wanted)) {
-  dds::PublisherQos publisher_qos = participant->get_default_publisher_qos();
-  dds::SubscriberQos subscriber_qos = participant->get_default_subscriber_qos();
-  if (!options.partition.empty()) {
-    publisher_qos.partition().push_back(options.partition.c_str());
-    subscriber_qos.partition().push_back(options.partition.c_str());
-  }
-  publisher = participant->create_publisher(publisher_qos);
-  subscriber = participant->create_subscriber(subscriber_qos);
-  if (publisher == nullptr || subscriber == nullptr) throw_dds("cannot create endpoints");
+DdsTransport::Impl::Impl(const DdsOptions& wanted) : options(wanted), membership(join()) {}
+
+std::unique_ptr<Membership> DdsTransport::Impl::join() {
+  return std::make_unique<Membership>(options, [this] {
+    const std::scoped_lock lock(endpoints_mutex);
+    for (DdsEndpoint* endpoint : endpoints) endpoint->nudge();
+  });
 }
 
-DdsTransport::Impl::~Impl() {
-  if (participant == nullptr) return;
-  participant->delete_contained_entities();
-  dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+void DdsTransport::Impl::add(DdsEndpoint& endpoint) {
+  const std::scoped_lock lock(endpoints_mutex);
+  endpoints.insert(&endpoint);
 }
 
-dds::Topic* DdsTransport::Impl::topic(const std::string& name, const MessageType& type) {
-  const std::scoped_lock lock(mutex);
-  auto& entry = topics[name];
-  if (entry == nullptr) {
-    dds::TypeSupport support(type.new_dds_type());
-    support.register_type(participant, type.name());
-    entry = participant->create_topic("rt/" + name, type.name(), dds::TOPIC_QOS_DEFAULT);
+void DdsTransport::Impl::remove(DdsEndpoint& endpoint) {
+  const std::scoped_lock lock(endpoints_mutex);
+  endpoints.erase(&endpoint);
+}
+
+bool DdsTransport::Impl::join_anew() {
+  if (!is_served) return false;
+  if (!successor) {
+    const auto given_up = lease(options.settings) - kServerLease - kSignOfLife;
+    if (membership->watch.has_lost_server(given_up)) successor = join();
+    return false;
   }
-  if (entry == nullptr) throw_dds("cannot create topic " + name);
-  if (entry->get_type_name() != type.name()) {
-    throw_dds("topic " + name + " carries " + entry->get_type_name() + ", not " + type.name());
+  if (membership->watch.sees_server()) {
+    successor.reset();  // it had not been given up
+    return false;
   }
-  return entry;
+  if (!successor->watch.sees_server()) {
+    // One that was made while a cable was out does not use that interface later.
+    if (ServerWatch::Wall::now() - successor->begin > kPatience) successor.reset();
+    return false;
+  }
+  for (DdsEndpoint* endpoint : endpoints) endpoint->leave();
+  membership = std::move(successor);
+  for (DdsEndpoint* endpoint : endpoints) endpoint->enter();
+  return true;
 }
 
 DdsTransport::DdsTransport(const DdsOptions& options) : impl_(std::make_shared<Impl>(options)) {}
@@ -268,24 +342,23 @@ DdsTransport::~DdsTransport() = default;
 
 std::unique_ptr<Writer> DdsTransport::create_writer(const std::string& topic,
                                                     const MessageType& type, Qos qos) {
-  dds::DataWriterQos writer_qos = impl_->publisher->get_default_datawriter_qos();
-  apply_intent(qos, impl_->options, writer_qos);
-  return std::make_unique<DdsWriter>(impl_, impl_->topic(topic, type), writer_qos);
+  return std::make_unique<DdsWriter<Impl>>(impl_, topic, type, qos);
 }
 
 std::unique_ptr<Reader> DdsTransport::create_reader(const std::string& topic,
                                                     const MessageType& type, Qos qos,
                                                     std::function<void()> on_data) {
-  dds::DataReaderQos reader_qos = impl_->subscriber->get_default_datareader_qos();
-  apply_intent(qos, impl_->options, reader_qos);
-  return std::make_unique<DdsReader>(impl_, impl_->topic(topic, type), type, reader_qos,
-                                     std::move(on_data));
+  return std::make_unique<DdsReader<Impl>>(impl_, topic, type, qos, std::move(on_data));
 }
 
 std::shared_ptr<void> DdsTransport::on_match(std::function<void()> callback) {
   auto kept = std::make_shared<std::function<void()>>(std::move(callback));
   impl_->match_callback = kept;
   return kept;
+}
+
+bool DdsTransport::mend() {
+  return impl_->join_anew();
 }
 
 }  // namespace coop::runtime

@@ -36,6 +36,9 @@ class DdsTransport : public Transport {
   std::unique_ptr<Reader> create_reader(const std::string& topic, const MessageType& type, Qos qos,
                                         std::function<void()> on_data) override;
   [[nodiscard]] std::shared_ptr<void> on_match(std::function<void()> callback) override;
+  /// Joins the domain anew where a discovery server is back that has given this program up
+  /// (docs/hosts.md): its half of old connections remains, and never fits again (Fast DDS 2.9.1).
+  bool mend() override;
 
  private:
   struct Impl;

@@ -40,11 +40,14 @@ class ClockFollower {
   }
 };
 
-void run_until_stopped(Executor& executor, Node& node) {
+void run_until_stopped(Executor& executor, Node& node, Transport& transport) {
   ClockSettings settings;
   while (!StopSignal::requested() && !node.wants_to_end()) {
     const Duration change = settings.change(SystemClock().now(), Executor::Wall::now());
     if (change != Duration{0}) node.handle_system_clock_set(change);
+    if (transport.mend()) {
+      node.log().warning("the discovery server was out of reach for too long: joined anew");
+    }
     executor.wait_and_run(std::chrono::milliseconds(500));
   }
 }
@@ -64,7 +67,7 @@ int run_freely(const Options& options, const Program& program, const config::Doc
   if (options.sim_time) follower = std::make_unique<ClockFollower>(node, sim_clock);
   const std::shared_ptr<void> component = program.start(node, document);
   if (node.health() == Health::kStarting) node.set_ready();
-  run_until_stopped(executor, node);
+  run_until_stopped(executor, node, transport);
   node.stop();
   return node.exit_code();
 }
@@ -82,7 +85,7 @@ int follow_lockstep(const Options& options, const Program& program,
   if (node.health() == Health::kStarting) node.set_ready();
   follower.hold_until(node.round_condition());
   follower.join(node.log(), [&](Time time) { set_clock(node, clock, time); });
-  run_until_stopped(executor, node);
+  run_until_stopped(executor, node, transport);
   node.stop();
   follower.leave();
   return node.exit_code();
@@ -107,7 +110,7 @@ int lead_lockstep(const Options& options, const Program& program, const config::
     return reached;
   };
   master.start(node, lead);
-  run_until_stopped(executor, node);
+  run_until_stopped(executor, node, transport);
   const auto patience = Executor::Wall::now() + kLastTick;
   while (!master.finish() && !StopSignal::requested() && Executor::Wall::now() < patience) {
     executor.wait_and_run(std::chrono::milliseconds(10));

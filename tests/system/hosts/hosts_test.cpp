@@ -31,6 +31,8 @@ constexpr milliseconds kPatience{30000};
 constexpr int kShortCut = 3;
 /// Longer than the server's lease, not than its clients'.
 constexpr int kServedCut = 10;
+/// Longer than a lease of 3 s.
+constexpr int kGivenUp = 7;
 const std::vector<std::string> kComponents{"amcl", "lidar_driver", "simulator"};
 
 int setting(const char* name, int otherwise) {
@@ -243,6 +245,22 @@ TEST_F(HostsTest, without_multicast_and_without_peers_nobody_is_found) {
   Operator listening(*network_, {});
   EXPECT_FALSE(listening.hears_all(milliseconds(3000)));
   EXPECT_FALSE(listening.has_heard_anybody());
+}
+
+TEST_F(HostsTest, who_was_given_up_by_the_discovery_server_joins_anew) {
+  if (access("/usr/bin/fast-discovery-server", X_OK) != 0) {
+    GTEST_SKIP() << "not run: no fast-discovery-server (package fastdds-tools)";
+  }
+  network_->block_multicast();
+  const std::vector<std::string> dds{"discovery=server",
+                                     "server=" + network_->address("server") + ":11811", "lease=3"};
+  const auto server = start_server();
+  start(dds);
+  Operator listening(*network_, dds);
+  ASSERT_TRUE(listening.hears_all()) << output();
+  measure_healing("server, lease 3 s", listening, std::max(cut_, kGivenUp));
+  measure_joining("server, lease 3 s, after the cut", dds);
+  EXPECT_TRUE(listening.hears_all());
 }
 
 TEST_F(HostsTest, a_discovery_server_stands_cuts_and_loss_and_may_die_and_come_back) {

@@ -23,7 +23,10 @@ class Listener {
 
   [[nodiscard]] runtime::Node& node() { return node_; }
   /// Takes in what has arrived.
-  void look() { executor_.run_once(); }
+  void look() {
+    transport_.mend();
+    executor_.run_once();
+  }
   /// The same, once something has arrived or `limit` has passed.
   void wait(std::chrono::milliseconds limit) { executor_.wait_and_run(limit); }
 
