@@ -41,6 +41,8 @@ struct WireQos {
 struct EndpointId {
   std::array<std::uint8_t, 16> bytes{};
 
+  // clang-tidy 14 takes the 0 of the comparison for a pointer.
+  // NOLINTNEXTLINE(modernize-use-nullptr)
   auto operator<=>(const EndpointId&) const = default;
   [[nodiscard]] std::string text() const;
 };

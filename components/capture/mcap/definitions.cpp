@@ -9,7 +9,7 @@ namespace {
 
 /// Ids begin at 1: schema 0 means "none".
 template <class T>
-std::uint16_t id_of(std::deque<T>& known, T&& wanted, const char* what) {
+std::uint16_t id_of(std::deque<T>& known, T wanted, const char* what) {
   for (const T& one : known) {
     wanted.id = one.id;
     if (one == wanted) return one.id;

@@ -90,11 +90,10 @@ void CaptureSaver::begin(const std::string& reason, const std::string& request_i
   }
   if (!save_) node_.log().info("the ring will be written: {}", reason);
   const std::string first_reason = save_ ? save_->reason : reason;
-  save_.emplace();
-  save_->due = Wall::now() + delay;
-  save_->reason = first_reason;
-  save_->request_id = request_id;
-  save_->path = new_path_(request_id.empty() ? kOfFault : "-snapshot");
+  save_ = Save{.due = Wall::now() + delay,
+               .reason = first_reason,
+               .request_id = request_id,
+               .path = new_path_(request_id.empty() ? kOfFault : "-snapshot")};
 }
 
 void CaptureSaver::work() {

@@ -64,6 +64,8 @@ class LockstepScript {
   struct Rank {
     std::string member;
     std::uint32_t endpoint = 0;
+    // clang-tidy 14 takes the 0 of the comparison for a pointer.
+    // NOLINTNEXTLINE(modernize-use-nullptr)
     auto operator<=>(const Rank&) const = default;
   };
   [[nodiscard]] std::optional<Rank> rank_of(const std::string& writer) const;

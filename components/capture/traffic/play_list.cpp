@@ -39,7 +39,7 @@ std::pair<std::string, std::string> split_remap(const std::string& remap) {
   if (at == std::string::npos || at == 0 || at + kBecomes.size() == remap.size()) {
     throw std::invalid_argument("remap: expected FROM:=TO, found '" + remap + "'");
   }
-  const auto with_slash = [](std::string name) {
+  const auto with_slash = [](const std::string& name) {
     return name.starts_with('/') ? name : "/" + name;
   };
   return {with_slash(remap.substr(0, at)), with_slash(remap.substr(at + kBecomes.size()))};

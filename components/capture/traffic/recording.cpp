@@ -156,6 +156,7 @@ std::vector<TopicReport> Recording::report() const {
   }
   std::vector<TopicReport> all;
   all.reserve(topics.size());
+  all.reserve(topics.size());
   for (auto& [name, topic] : topics) all.push_back(std::move(topic));
   return all;
 }

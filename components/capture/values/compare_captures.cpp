@@ -147,6 +147,7 @@ std::vector<TopicComparison> compare_captures(mcap::Reader& first, mcap::Reader&
     }
   }
   std::vector<TopicComparison> result;
+  result.reserve(names.size());
   for (const std::string& name : names) result.push_back(compare_topic(first, second, name));
   return result;
 }
