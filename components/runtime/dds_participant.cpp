@@ -26,7 +26,10 @@ namespace {
 
 constexpr std::uint32_t kSocketBuffer = 4U << 20U;
 constexpr std::uint32_t kSharedSegment = 8U << 20U;
-constexpr std::chrono::seconds kLease{2};
+/// Longer than the launcher's patience of 3 s with a silent program: one that is stopped and goes
+/// on must not have been forgotten by those it remembers, or their halves of the connections never
+/// fit again.
+constexpr std::chrono::seconds kLease{5};
 /// With a server it must outlast a cut: who has been given up by some and not by all stays lost
 /// (docs/hosts.md).
 constexpr std::chrono::seconds kServedLease{18};

@@ -59,7 +59,7 @@ void DdsSettings::describe(config::Fields& fields) {
   fields.text("server", server, {.help = "ADDRESS:PORT of it (discovery: server)"});
   fields.integer("lease", lease,
                  {.unit = "s",
-                  .help = "until one who is not heard is given up; 0: 2, with a server 18",
+                  .help = "until one who is not heard is given up; 0: 5, with a server 18",
                   .min = 0,
                   .max = 3600});
   fields.choice("transport", transport, kTransport,

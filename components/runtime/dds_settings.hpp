@@ -15,7 +15,7 @@ struct DdsSettings {
   std::vector<std::string> peers;       ///< other hosts, addresses or names
   int peer_participants = 20;           ///< programs a host that peers are looked for
   std::string server;                   ///< ADDRESS:PORT of the discovery server
-  int lease = 0;                        ///< s until one not heard is given up; 0: 2, server 18
+  int lease = 0;                        ///< s until one not heard is given up; 0: 5, server 18
   std::string transport = "udp";        ///< shm: shared memory too, within one host
   std::vector<std::string> interfaces;  ///< names or addresses to keep to; none: all
   bool security = false;                ///< only programs with keys take part

@@ -24,7 +24,7 @@ struct DdsOptions {
 };
 
 /// Fast DDS behind the Transport interface: UDPv4 with 4 MiB buffers unless the settings say
-/// otherwise, data-sharing off, participant lease 2 s. Topic `scan` is `rt/scan` on the wire (ROS
+/// otherwise, data-sharing off, participant lease 5 s. Topic `scan` is `rt/scan` on the wire (ROS
 /// 2's rule).
 class DdsTransport : public Transport {
  public:

@@ -28,7 +28,7 @@ using std::chrono::seconds;
 constexpr int kDomain = 57;
 constexpr milliseconds kPatience{30000};
 /// Longer than the usual lease: both sides have forgotten each other.
-constexpr int kShortCut = 3;
+constexpr int kShortCut = 7;
 /// Longer than the server's lease, not than its clients'.
 constexpr int kServedCut = 10;
 /// Longer than a lease of 3 s.

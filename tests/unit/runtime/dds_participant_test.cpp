@@ -96,7 +96,7 @@ TEST(ParticipantQos, remembers_who_is_silent_for_longer_where_a_server_knows_eve
   const auto lease = [](const std::vector<std::string>& dds) {
     return qos_of(dds).wire_protocol().builtin.discovery_config.leaseDuration.seconds;
   };
-  EXPECT_EQ(lease({}), 2);
+  EXPECT_EQ(lease({}), 5);
   EXPECT_EQ(lease({"discovery=server", "server=10.1.2.3:11811"}), 18);
   EXPECT_EQ(lease({"lease=7"}), 7);
 }
