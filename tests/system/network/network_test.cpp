@@ -243,13 +243,14 @@ class GarbageTest : public NetworkTest {
     watcher_.emplace(system_->domain());
     EXPECT_TRUE(watcher_->hears_data());
     std::vector<Packet> genuine = capture_rtps(ports, milliseconds(2000));
+    EXPECT_FALSE(genuine.empty());
     const auto before = system_->pids();
     const int seed = setting("COOP_FUZZ_SEED", 1);
     std::printf("garbage: %zu genuine packets, %zu ports, seed %d\n", genuine.size(), ports.size(),
                 seed);
     Garbage garbage(std::move(genuine), static_cast<std::uint64_t>(seed), sender);
     const Thrower thrower;
-    const auto end = Wall::now() + std::chrono::seconds(setting("COOP_FUZZ_SECONDS", 4));
+    const auto end = Wall::now() + std::chrono::seconds(setting("COOP_FUZZ_SECONDS", kSuiteSeconds));
     std::size_t thrown = 0;
     int deaf = 0;
     while (Wall::now() < end) {
@@ -269,6 +270,8 @@ class GarbageTest : public NetworkTest {
   }
 
   static constexpr double kTooLong = 5.0;  // s without a component's heartbeat
+  /// Long enough for somebody to be deaf that long.
+  static constexpr int kSuiteSeconds = 8;
   std::optional<Watcher> watcher_;
 };
 
