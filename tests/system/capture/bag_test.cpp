@@ -7,6 +7,7 @@
 #include "capture/mcap/reader.hpp"
 #include "conversions/geometry.hpp"
 #include "core/map/map_file.hpp"
+#include "experiments/slam/relations.hpp"
 #include "geometry_msgs/msg/PoseWithCovarianceStamped.h"
 #include "runtime/raw_message.hpp"
 #include "slam/trajectory_file.hpp"
@@ -41,16 +42,6 @@ std::vector<Stamped<PoseEstimate>> poses_in(const std::filesystem::path& capture
     if (pose) poses.push_back(*pose);
   }
   return poses;
-}
-
-/// Where the robot was at that time, between the poses around it.
-Pose2 at(const std::vector<StampedPose2>& way, Time stamp) {
-  const auto after = std::ranges::lower_bound(way, stamp, {}, &StampedPose2::stamp);
-  if (after == way.begin()) return way.front().pose;
-  if (after == way.end()) return way.back().pose;
-  const auto before = std::prev(after);
-  const double ratio = to_seconds(stamp - before->stamp) / to_seconds(after->stamp - before->stamp);
-  return interpolate(before->pose, after->pose, ratio);
 }
 
 class RealBag : public ::testing::Test {
@@ -113,7 +104,7 @@ TEST_F(RealBag, IsFollowedByAmclOnItsMap) {
   double worst_turn = 0.0;
   double driven = 0.0;
   for (const auto& pose : poses) {
-    const Pose2 expected = at(way, pose.stamp);
+    const Pose2 expected = experiments::pose_at(way, pose.stamp);
     const double error = distance(pose.value.pose, expected);
     sum += error;
     worst = std::max(worst, error);

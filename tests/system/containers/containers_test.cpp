@@ -119,12 +119,7 @@ class Containers : public ::testing::Test {
     watch_.emplace(test_domain());
   }
   bool wait(const std::function<bool()>& condition) {
-    return wait_until(
-        [&] {
-          watch_->look();
-          return condition();
-        },
-        kMissionLimit);
+    return look_until(*watch_, condition, kMissionLimit);
   }
   bool reached(std::uint8_t state) {
     return wait([&] { return watch_->mission().state() == state; });

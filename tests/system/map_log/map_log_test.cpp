@@ -34,12 +34,7 @@ class MapLogSystem : public ::testing::Test {
     expect_all_was_told();
   }
   bool wait(const std::function<bool()>& condition) {
-    return wait_until(
-        [&] {
-          watch_->look();
-          return condition();
-        },
-        kMapLimit);
+    return look_until(*watch_, condition, kMapLimit);
   }
   bool wait_for_scans(std::size_t count) {
     return wait([&] { return watch_->scans().size() >= count; });

@@ -19,12 +19,7 @@ class CleaningSystem : public ::testing::Test {
     watch_.emplace(system_->domain());
   }
   bool wait(const std::function<bool()>& condition) {
-    return wait_until(
-        [&] {
-          watch_->look();
-          return condition();
-        },
-        kMissionLimit);
+    return look_until(*watch_, condition, kMissionLimit);
   }
   void expect_a_clean_pen() {
     ASSERT_TRUE(wait([&] { return watch_->is_done(); })) << watch_->mission().detail();

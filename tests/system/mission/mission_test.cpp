@@ -27,12 +27,7 @@ class MissionSystem : public ::testing::Test {
     ASSERT_TRUE(system_->wait_until_ready());
   }
   bool wait(const std::function<bool()>& condition) {
-    return wait_until(
-        [&] {
-          watch_->look();
-          return condition();
-        },
-        kMissionLimit);
+    return look_until(*watch_, condition, kMissionLimit);
   }
   void expect_every_egg_accounted_for(int eggs) {
     EXPECT_EQ(watch_->eggs_picked(), eggs) << watch_->mission().detail();

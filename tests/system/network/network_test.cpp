@@ -250,7 +250,8 @@ class GarbageTest : public NetworkTest {
                 seed);
     Garbage garbage(std::move(genuine), static_cast<std::uint64_t>(seed), sender);
     const Thrower thrower;
-    const auto end = Wall::now() + std::chrono::seconds(setting("COOP_FUZZ_SECONDS", kSuiteSeconds));
+    const auto end =
+        Wall::now() + std::chrono::seconds(setting("COOP_FUZZ_SECONDS", kSuiteSeconds));
     std::size_t thrown = 0;
     int deaf = 0;
     while (Wall::now() < end) {

@@ -53,12 +53,7 @@ class SecuredRobot : public ::testing::Test {
     watch_.emplace(guest_options("watch", kRobot, keys_));
   }
   bool wait(const std::function<bool()>& condition) {
-    return wait_until(
-        [&] {
-          watch_->look();
-          return condition();
-        },
-        kMissionLimit);
+    return look_until(*watch_, condition, kMissionLimit);
   }
   /// A tool of a person, who has keys.
   std::string tool(const std::string& program, std::vector<std::string> arguments) {

@@ -24,6 +24,17 @@ inline constexpr milliseconds kSoon{20000};
 /// Calls `condition` until it holds; false when `limit` has passed.
 bool wait_until(const std::function<bool()>& condition, milliseconds limit = kSoon);
 
+/// The same, with `watch.look()` before each look at the condition: for one that listens over DDS.
+template <class Watch>
+bool look_until(Watch& watch, const std::function<bool()>& condition, milliseconds limit) {
+  return wait_until(
+      [&] {
+        watch.look();
+        return condition();
+      },
+      limit);
+}
+
 /// Control sockets of this test process lie in a folder of its own, away from systems a person
 /// runs: sets COOP_RUNTIME_DIR for it and what it starts.
 const std::filesystem::path& control_folder();
