@@ -81,16 +81,22 @@ class Tail::Slot final : public std::pmr::memory_resource {
   bool is_taken_ = false;
 };
 
-/// A chunk as the tail has it: whole records. Empty where there is no tail. Of a capture that is
-/// being written the tail is to be read before the capture is opened: a chunk is in one of them.
+/// A chunk as the tail has it: whole records, should nobody have damaged them.
 struct TailChunk {
   std::uint64_t ordinal = 0;  ///< in the order in which they were begun
   std::vector<std::byte> records;
 };
+/// Of a file, up to where it is none; slots that are larger than what is left of `max_bytes` are
+/// passed over.
+[[nodiscard]] std::vector<TailChunk> chunks_of_tail(const Source& tail,
+                                                    std::uint64_t max_bytes = std::uint64_t{2}
+                                                                              << 30U);
+/// Empty where there is no tail. Of a capture that is being written the tail is to be read before
+/// the capture is opened: a chunk is in one of them.
 [[nodiscard]] std::vector<TailChunk> read_tail(const std::filesystem::path& capture);
 
 /// The capture with those chunks of its tail that it lacks, as if they had been written,
-/// uncompressed, behind its last whole record; the capture itself where it is complete.
+/// uncompressed, behind its last whole record; the capture itself where it is complete, or none.
 [[nodiscard]] std::shared_ptr<const Source> with_tail(std::shared_ptr<const Source> capture,
                                                       const std::vector<TailChunk>& tail);
 

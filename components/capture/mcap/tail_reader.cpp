@@ -2,6 +2,7 @@
 #include <set>
 #include <system_error>
 
+#include "capture/mcap/chunk_search.hpp"
 #include "capture/mcap/crc.hpp"
 #include "capture/mcap/encode.hpp"
 #include "capture/mcap/record_stream.hpp"
@@ -12,6 +13,8 @@ namespace {
 
 /// Content of a Chunk record before its records: long enough for any name of a compression.
 constexpr std::uint64_t kChunkHead = 64;
+/// Places of a damaged capture behind which chunks are looked for.
+constexpr int kMostDamage = 1000;
 
 /// The numbers of a slot's head, as they lie in the file.
 struct HeadNumbers {
@@ -28,27 +31,14 @@ HeadNumbers read_head(const Source& tail, std::uint64_t offset) {
   return {number(0), number(1), number(2), number(3)};
 }
 
-/// Chunks in the order in which they were begun. The writer may be alive: a slot that changes hands
-/// meanwhile is in the capture by now.
-std::vector<TailChunk> chunks_of(const Source& tail) {
-  std::vector<TailChunk> chunks;
-  std::uint64_t offset = 0;
-  while (offset < tail.size() && tail.size() - offset > Tail::kHead) {
-    const HeadNumbers head = read_head(tail, offset);
-    const std::uint64_t room = tail.size() - offset - Tail::kHead;
-    if (head.magic != Tail::kSlotMagic || head.capacity > room || head.size > head.capacity) break;
-    if (head.size > 0) {
-      TailChunk found{head.ordinal, std::vector<std::byte>(head.size)};
-      tail.read(offset + Tail::kHead, found.records);
-      const HeadNumbers after = read_head(tail, offset);
-      if (after.ordinal == head.ordinal && after.size >= head.size) {
-        chunks.push_back(std::move(found));
-      }
-    }
-    offset += Tail::slot_size(head.capacity);
-  }
-  std::ranges::sort(chunks, {}, &TailChunk::ordinal);
-  return chunks;
+/// The records of a slot; none where it changes hands meanwhile: they are in the capture by now.
+std::vector<std::byte> read_slot(const Source& tail, std::uint64_t offset,
+                                 const HeadNumbers& head) {
+  std::vector<std::byte> records(head.size);
+  tail.read(offset + Tail::kHead, records);
+  const HeadNumbers after = read_head(tail, offset);
+  if (after.ordinal != head.ordinal || after.size < head.size) records.clear();
+  return records;
 }
 
 /// What a capture that was cut has got.
@@ -57,22 +47,25 @@ struct Whole {
   std::set<std::pair<std::uint64_t, std::uint32_t>> chunks{};  ///< sizes and CRCs
 };
 
-Whole whole_records(const std::shared_ptr<const Source>& capture) {
-  Whole whole;
-  try {
-    whole.end = read_begin(capture, {}).data_begin;
-    RecordStream stream(capture, {}, whole.end, capture->size());
-    while (const auto place = stream.next()) {
-      if (place->opcode == Opcode::kDataEnd) break;
+/// Damage in its midst does not end it: recovery finds the chunks behind.
+Whole whole_records(const std::shared_ptr<const Source>& capture, std::uint64_t begin) {
+  Whole whole{begin};
+  RecordStream stream(capture, {}, begin, capture->size());
+  for (int damage = 0; damage < kMostDamage;) {
+    const std::uint64_t offset = stream.position();
+    try {
+      const auto place = stream.next();
+      if (!place || place->opcode == Opcode::kDataEnd) break;
       if (place->opcode == Opcode::kChunk) {
         const auto head =
             decode_chunk_head(stream.content_prefix(kChunkHead), place->content_length);
         whole.chunks.emplace(head.chunk.uncompressed_size, head.chunk.uncompressed_crc);
       }
       whole.end = place->end();
+    } catch (const FileError&) {
+      ++damage;
+      stream.seek(find_chunk(stream, offset + 1));
     }
-  } catch (const FileError&) {
-    // Here it is cut.
   }
   return whole;
 }
@@ -129,8 +122,8 @@ bool is_complete(const Source& capture) {
 /// A capture up to a place, and what is appended there.
 class Appended final : public Source {
  public:
-  Appended(std::shared_ptr<const Source> capture, std::uint64_t begin, Bytes rest)
-      : capture_(std::move(capture)), begin_(begin), rest_(rest.begin(), rest.end()) {}
+  Appended(std::shared_ptr<const Source> capture, std::uint64_t begin, ByteBuffer rest)
+      : capture_(std::move(capture)), begin_(begin), rest_(std::move(rest)) {}
   [[nodiscard]] std::uint64_t size() const override { return begin_ + rest_.size(); }
   [[nodiscard]] const std::string& name() const override { return capture_->name(); }
   void read(std::uint64_t offset, std::span<std::byte> out) const override {
@@ -141,23 +134,46 @@ class Appended final : public Source {
     if (out.size() - before > rest_.size() - std::min<std::uint64_t>(from, rest_.size())) {
       throw FileError(size(), "the file ends here");
     }
-    std::copy_n(rest_.begin() + static_cast<std::ptrdiff_t>(from), out.size() - before,
-                out.begin() + static_cast<std::ptrdiff_t>(before));
+    std::ranges::copy(rest_.view().subspan(static_cast<std::size_t>(from), out.size() - before),
+                      out.subspan(before).begin());
   }
 
  private:
   std::shared_ptr<const Source> capture_;
   std::uint64_t begin_;
-  std::vector<std::byte> rest_;
+  ByteBuffer rest_;
 };
 
 }  // namespace
+
+std::vector<TailChunk> chunks_of_tail(const Source& tail, std::uint64_t max_bytes) {
+  std::vector<TailChunk> chunks;
+  std::uint64_t offset = 0;
+  try {
+    while (offset < tail.size() && tail.size() - offset > Tail::kHead) {
+      const HeadNumbers head = read_head(tail, offset);
+      const std::uint64_t room = tail.size() - offset - Tail::kHead;
+      if (head.magic != Tail::kSlotMagic || head.capacity > room || head.size > head.capacity)
+        break;
+      if (head.size > 0 && head.size <= max_bytes) {
+        TailChunk found{head.ordinal, read_slot(tail, offset, head)};
+        max_bytes -= found.records.size();
+        if (!found.records.empty()) chunks.push_back(std::move(found));
+      }
+      offset += Tail::slot_size(head.capacity);
+    }
+  } catch (const FileError&) {
+    // Cut while it is read: what was found so far is good.
+  }
+  std::ranges::stable_sort(chunks, {}, &TailChunk::ordinal);
+  return chunks;
+}
 
 std::vector<TailChunk> read_tail(const std::filesystem::path& capture) {
   const auto tail = existing_tail(capture);
   if (tail.empty()) return {};
   try {
-    return chunks_of(*open_plain_file(tail));
+    return chunks_of_tail(*open_plain_file(tail));
   } catch (const std::system_error&) {
     return {};  // gone meanwhile: the capture was closed
   }
@@ -166,15 +182,20 @@ std::vector<TailChunk> read_tail(const std::filesystem::path& capture) {
 std::shared_ptr<const Source> with_tail(std::shared_ptr<const Source> capture,
                                         const std::vector<TailChunk>& tail) {
   if (tail.empty() || is_complete(*capture)) return capture;
-  const Whole whole = whole_records(capture);
-  if (whole.end == 0) return capture;
+  std::uint64_t begin = 0;
+  try {
+    begin = read_begin(capture, {}).data_begin;
+  } catch (const FileError&) {
+    return capture;  // no capture: who reads it says so
+  }
+  const Whole whole = whole_records(capture, begin);
   ByteBuffer out;
   for (const TailChunk& chunk : tail) {
     const std::uint32_t crc = crc32_of(chunk.records);
     if (!whole.chunks.contains({chunk.records.size(), crc})) append_chunk(out, chunk.records);
   }
   if (out.empty()) return capture;
-  return std::make_shared<Appended>(std::move(capture), whole.end, out.view());
+  return std::make_shared<Appended>(std::move(capture), whole.end, std::move(out));
 }
 
 }  // namespace coop::mcap

@@ -2,75 +2,14 @@
 /// What is no FileError is a finding. With COOP_FUZZ_SEEDS=DIR small valid files are written there
 /// first:
 ///   COOP_FUZZ_SEEDS=corpus mcap_reader_fuzz corpus -max_total_time=600 -rss_limit_mb=1024
-#include <cstdlib>
 #include <fstream>
 
-#include "capture/mcap/reader.hpp"
-#include "capture/mcap/recover.hpp"
+#include "fuzz/mcap_reader/use_file.hpp"
 
 namespace {
 
 using namespace coop::mcap;
-
-ReadLimits limits() {
-  ReadLimits limits;
-  limits.max_chunk = std::uint64_t{1} << 20U;
-  limits.max_record = std::uint64_t{1} << 20U;
-  limits.chunk_cache = 4096;
-  return limits;
-}
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
-
-/// Number of messages up to the first error.
-std::uint64_t read_all(const std::shared_ptr<const Source>& source, const Selection& selection,
-                       bool must_be_whole) {
-  std::uint64_t messages = 0;
-  try {
-    Reader reader(source, limits());
-    if (must_be_whole) require(reader.summary().complete && !reader.summary().scanned);
-    for (const AttachmentIndex& index : reader.summary().attachments) {
-      try {
-        static_cast<void>(reader.attachment(index));
-      } catch (const FileError&) {
-        require(!must_be_whole);
-      }
-    }
-    for (const MetadataIndex& index : reader.summary().metadata) {
-      try {
-        static_cast<void>(reader.metadata(index));
-      } catch (const FileError&) {
-        require(!must_be_whole);
-      }
-    }
-    Nanoseconds last = 0;
-    MessageCursor cursor = reader.messages(selection);
-    while (const auto read = cursor.next()) {
-      require(read->channel != nullptr && selection.has(read->message.log_time));
-      if (must_be_whole) require(read->message.log_time >= last);
-      last = read->message.log_time;
-      ++messages;
-    }
-  } catch (const FileError&) {
-    require(!must_be_whole);
-  }
-  return messages;
-}
-
-void recover_and_read(const std::shared_ptr<const Source>& source) {
-  std::vector<std::byte> out;
-  RecoverReport report;
-  try {
-    RecoverOptions options;
-    options.limits = limits();
-    report = recover(source, write_to_memory(out), options);
-  } catch (const FileError&) {
-    return;
-  }
-  require(read_all(open_memory(std::move(out)), {}, true) == report.messages);
-}
+using namespace coop::mcap::fuzz;
 
 void write_seed(const std::string& path, Compression compression, bool checksums, bool chunked) {
   std::vector<std::byte> bytes;
