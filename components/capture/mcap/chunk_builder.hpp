@@ -18,6 +18,7 @@ struct ChannelEntries {
 class ChunkBuilder {
  public:
   /// `slot`: where the records lie, as long as it has room for them; none: on the heap.
+  /// reserve() as much as it has, before anything is added.
   explicit ChunkBuilder(Padding padding = Padding::kNone, std::unique_ptr<Tail::Slot> slot = {})
       : padding_(padding),
         slot_(std::move(slot)),
@@ -26,6 +27,8 @@ class ChunkBuilder {
   void add(const Schema& schema) { encode(records_, schema, padding_); }
   void add(const Channel& channel) { encode(records_, channel, padding_); }
   void add(const Message& message);
+  /// Schemas and channels, encoded.
+  void add_records(Bytes records) { records_.raw(records); }
   void clear();
   void reserve(std::size_t size) { records_.reserve(size); }
 

@@ -54,18 +54,25 @@ std::unique_ptr<Tail::Slot> Tail::add_slot(std::size_t capacity) {
   if (::posix_fallocate(fd_, offset, static_cast<off_t>(length)) != 0) return nullptr;
   void* memory = ::mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_SHARED, fd_, offset);
   if (memory == MAP_FAILED) return nullptr;
+  const std::uint64_t begin = size_;
   size_ += length;
-  return std::unique_ptr<Slot>(new Slot(*this, memory, capacity));
+  return std::unique_ptr<Slot>(new Slot(*this, begin, memory, capacity));
 }
 
-Tail::Slot::Slot(Tail& tail, void* memory, std::size_t capacity)
-    : tail_(tail), head_(new (memory) Head), capacity_(capacity) {
+Tail::Slot::Slot(Tail& tail, std::uint64_t offset, void* memory, std::size_t capacity)
+    : tail_(tail), offset_(offset), head_(new (memory) Head), capacity_(capacity) {
   head_->capacity = capacity;
   head_->magic = kSlotMagic;
 }
 
 Tail::Slot::~Slot() {
-  ::munmap(head_, slot_size(capacity_));
+  clear();
+  const std::size_t length = slot_size(capacity_);
+  ::munmap(head_, length);
+  // Where the file system has no holes, the blocks stay until the tail is removed.
+  static_cast<void>(::fallocate(tail_.fd_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
+                                static_cast<off_t>(offset_ + kHead),
+                                static_cast<off_t>(length - kHead)));
 }
 
 std::byte* Tail::Slot::records() const {

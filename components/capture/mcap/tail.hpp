@@ -50,6 +50,7 @@ class Tail {
 /// the heap, which is lost with the process.
 class Tail::Slot final : public std::pmr::memory_resource {
  public:
+  /// Gives its blocks on the disk back; an empty slot stays in the file.
   ~Slot() override;
   Slot(const Slot&) = delete;
   Slot& operator=(const Slot&) = delete;
@@ -67,7 +68,7 @@ class Tail::Slot final : public std::pmr::memory_resource {
     std::atomic<std::uint64_t> ordinal{0};  ///< chunks in the order in which they were begun
     std::atomic<std::uint64_t> size{0};     ///< bytes of whole records
   };
-  Slot(Tail& tail, void* memory, std::size_t capacity);
+  Slot(Tail& tail, std::uint64_t offset, void* memory, std::size_t capacity);
   void* do_allocate(std::size_t bytes, std::size_t alignment) override;
   void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override;
   [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override {
@@ -76,6 +77,7 @@ class Tail::Slot final : public std::pmr::memory_resource {
   [[nodiscard]] std::byte* records() const;
 
   Tail& tail_;
+  std::uint64_t offset_;
   Head* head_;
   std::size_t capacity_;
   bool is_taken_ = false;

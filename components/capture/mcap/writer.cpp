@@ -1,12 +1,10 @@
 #include "capture/mcap/writer.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace coop::mcap {
 namespace {
-
-/// Room in a slot for definitions that are new with its chunk.
-constexpr std::size_t kDefinitionsRoom = std::size_t{64} << 10U;
 
 std::unique_ptr<Tail> make_tail(const Series& series, bool wanted) {
   if (!wanted) return nullptr;
@@ -64,59 +62,77 @@ std::uint16_t Writer::add_channel(std::uint16_t schema_id, std::string_view topi
 
 /// A chunk that is found in the tail must tell of its channels itself: those in the file come with
 /// the next chunk.
-void Writer::add_definitions() {
+void Writer::collect_definitions() {
   if (!tail_ || !has_new_definitions_.exchange(false)) return;
   const Definitions::View fresh = definitions_.after(schemas_told_, channels_told_);
-  for (const Schema* schema : fresh.schemas) current_->add(*schema);
-  for (const Channel* channel : fresh.channels) current_->add(*channel);
+  const Padding padding = options_.file.layout.padding;
+  for (const Schema* schema : fresh.schemas) encode(untold_, *schema, padding);
+  for (const Channel* channel : fresh.channels) encode(untold_, *channel, padding);
   schemas_told_ += fresh.schemas.size();
   channels_told_ += fresh.channels.size();
 }
 
 bool Writer::write(const Message& message) {
   std::unique_lock lock(mutex_);
-  const std::size_t size = kRecordPrefix + kMessagePrefix + message.data.size();
-  if (current_ && !current_->empty()) {
-    const bool too_large = current_->size() + size > options_.chunk_bytes;
-    const bool too_old = message.log_time >= current_->start_time() + options_.chunk_age;
-    if (too_large || too_old) hand_over();
-  }
-  if (closed_ || failed_ || !make_room(lock, size)) {
+  if (!make_room(lock, message)) {
     ++status_.lost_messages[message.channel_id];
     return false;
   }
-  const std::size_t before = current_->capacity();
-  add_definitions();
+  current_->add_records(untold_.view());
+  untold_.clear();
   current_->add(message);
-  builder_bytes_ += current_->capacity() - before;
   ++status_.messages;
   if (current_->size() >= options_.chunk_bytes) hand_over();
   return true;
 }
 
-/// A builder to write into; at least two there are always, so that one may be filled while the
-/// other is written.
-bool Writer::make_room(std::unique_lock<std::mutex>& lock, std::size_t message_size) {
-  const std::size_t wanted = std::max(options_.chunk_bytes, message_size);
-  while (!current_) {
-    if (!free_.empty()) {
-      current_ = std::move(free_.back());
-      free_.pop_back();
-    } else if (builders_ < 2 || builder_bytes_ + wanted <= options_.queue_bytes) {
-      const std::size_t room = wanted + (tail_ ? kDefinitionsRoom : 0);
-      current_ = std::make_unique<ChunkBuilder>(options_.file.layout.padding,
-                                                tail_ ? tail_->add_slot(room) : nullptr);
-      current_->reserve(room);
-      ++builders_;
-      builder_bytes_ += current_->capacity();
-    } else if (options_.when_full == WhenFull::kLose) {
-      return false;
-    } else {
-      has_room_.wait(lock);
-      if (closed_ || failed_) return false;
+/// A chunk that has room for the message, and for the definitions before it.
+bool Writer::make_room(std::unique_lock<std::mutex>& lock, const Message& message) {
+  while (!closed_ && !failed_) {
+    collect_definitions();
+    const std::size_t size = untold_.size() + kRecordPrefix + kMessagePrefix + message.data.size();
+    if (current_) {
+      const bool too_large = current_->size() + size > options_.chunk_bytes;
+      const bool too_old = message.log_time >= current_->start_time() + options_.chunk_age;
+      if (too_large || too_old) hand_over();
     }
+    if (current_ || take_builder(std::max(options_.chunk_bytes, size))) return true;
+    if (options_.when_full == WhenFull::kLose) return false;
+    has_room_.wait(lock);
   }
+  return false;
+}
+
+/// The smallest free builder that has the capacity wanted, or a new one, in place of a smaller one
+/// where there is one. At least two there are always, so that one may be filled while the other is
+/// written.
+bool Writer::take_builder(std::size_t capacity) {
+  std::ranges::sort(free_, {}, [](const auto& builder) { return builder->capacity(); });
+  const auto fitting = std::ranges::lower_bound(
+      free_, capacity, {}, [](const auto& builder) { return builder->capacity(); });
+  if (fitting != free_.end()) {
+    current_ = std::move(*fitting);
+    free_.erase(fitting);
+    return true;
+  }
+  if (!free_.empty()) drop_smallest();
+  if (capacity > options_.chunk_bytes) capacity = std::bit_ceil(capacity);
+  while (builders_ >= 2 && builder_bytes_ + capacity > options_.queue_bytes) {
+    if (free_.empty()) return false;
+    drop_smallest();
+  }
+  current_ = std::make_unique<ChunkBuilder>(options_.file.layout.padding,
+                                            tail_ ? tail_->add_slot(capacity) : nullptr);
+  current_->reserve(capacity);
+  ++builders_;
+  builder_bytes_ += current_->capacity();
   return true;
+}
+
+void Writer::drop_smallest() {
+  builder_bytes_ -= free_.front()->capacity();
+  --builders_;
+  free_.erase(free_.begin());
 }
 
 void Writer::hand_over() {
@@ -158,6 +174,7 @@ void Writer::begin_anew(const std::filesystem::path& path) {
   if (closed_) return;
   hand_over();
   schemas_told_ = channels_told_ = 0;
+  untold_.clear();
   has_new_definitions_ = true;
   post([this, path] {
     target_->begin_anew(path);

@@ -41,9 +41,8 @@ struct WriterStatus {
 /// time and what close_aged_chunk() is told.
 ///
 /// A process killed at any moment leaves all chunks written before, and with `tail` those that are
-/// being filled and wait too (but for messages larger than a chunk). When the disk fails, the file
-/// ends with the last whole chunk, status().error says why, and what comes later is counted as
-/// lost.
+/// being filled and wait too. When the disk fails, the file ends with the last whole chunk,
+/// status().error says why, and what comes later is counted as lost.
 class Writer {
  public:
   /// Throws std::system_error where the file cannot be created.
@@ -98,17 +97,19 @@ class Writer {
   void run();
   void run_chunk(std::unique_ptr<ChunkBuilder> chunk);
   void post(std::function<void()> command);
-  [[nodiscard]] bool make_room(std::unique_lock<std::mutex>& lock, std::size_t message_size);
+  void collect_definitions();
+  [[nodiscard]] bool make_room(std::unique_lock<std::mutex>& lock, const Message& message);
+  [[nodiscard]] bool take_builder(std::size_t capacity);
+  void drop_smallest();
   void hand_over();
   void note_failure(const std::string& what);
-
-  void add_definitions();
 
   WriterOptions options_;
   Definitions definitions_;
   std::atomic<bool> has_new_definitions_{false};
   std::size_t schemas_told_ = 0;  // to the builders: a tail explains itself
   std::size_t channels_told_ = 0;
+  ByteBuffer untold_;  // those that come with the next message
   std::unique_ptr<Tail> tail_;
   std::unique_ptr<ChunkTarget> target_;  // of the thread
   Compressor compressor_;                // of the thread

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 
@@ -22,8 +23,10 @@ using testing::SizeIs;
 
 class TailTest : public ::testing::Test {
  protected:
-  void open(const Series& series, std::size_t chunk_bytes = 4000) {
+  void open(const Series& series, std::size_t chunk_bytes = 4000,
+            std::size_t queue_bytes = std::size_t{64} << 20U) {
     WriterOptions options;
+    options.queue_bytes = queue_bytes;
     options.chunk_bytes = chunk_bytes;
     options.when_full = WhenFull::kWait;
     options.tail = true;
@@ -126,16 +129,44 @@ TEST_F(TailTest, AFileThatBeginsAnewHasItWithAllThatExplainsIt) {
   EXPECT_THAT(lines_of(first), ElementsAre("/a 100 before"));
 }
 
-TEST_F(TailTest, AMessageLargerThanAChunkIsTakenWithoutIt) {
+TEST_F(TailTest, AMessageLargerThanAChunkIsInItToo) {
   open({path()});
   const auto a = channel("/a");
   const std::string large(200'000, 'x');
+  const std::vector<std::string> lines{"/a 1 small", "/a 2 " + large, "/a 3 small",
+                                       "/a 4 " + large};
   write(a, 1, "small");
   write(a, 2, large);
   write(a, 3, "small");
+  write(a, 4, large);
+  Reader killed(copy(path()));
+  EXPECT_EQ(lines_of(killed), lines);
   writer_->close();
   Reader reader(path());
-  EXPECT_THAT(lines_of(reader), ElementsAre("/a 1 small", "/a 2 " + large, "/a 3 small"));
+  EXPECT_EQ(lines_of(reader), lines);
+}
+
+TEST_F(TailTest, LargeMessagesDoNotMakeItGrowForEver) {
+  open({path()}, 4000, 1);
+  const auto a = channel("/a");
+  for (Nanoseconds i = 0; i < 1000; ++i) {
+    write(a, i, std::string(i % 10 == 9 ? 50'000 + 1000 * (i % 200) : 3000, 'x'));
+  }
+  // Two chunks in memory, each of them in slots of 4, 64, 128 and 256 KiB one after the other.
+  EXPECT_LE(std::filesystem::file_size(Tail::path_of(path())), 1'000'000U);
+  struct stat status {};
+  ASSERT_EQ(::stat(Tail::path_of(path()).c_str(), &status), 0);
+  EXPECT_LE(status.st_blocks * 512, 600'000) << "what is no longer used was not given back";
+}
+
+TEST_F(TailTest, ManyNewChannelsAtOnceAreStillInIt) {
+  open({path()});
+  write(channel("/first"), 1, std::string(3000, 'x'));
+  const auto schema = writer_->add_schema("large", "ros2msg", std::string(300'000, 's'));
+  write(writer_->add_channel(schema, "/second"), 2, "text");
+  Reader killed(copy(path()));
+  EXPECT_THAT(lines_of(killed),
+              ElementsAre("/first 1 " + std::string(3000, 'x'), "/second 2 text"));
 }
 
 TEST_F(TailTest, WhatIsNoTailIsLeftAlone) {
