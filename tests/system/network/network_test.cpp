@@ -223,10 +223,12 @@ class Watcher {
   int locations_ = 0;
 };
 
-TEST_F(NetworkTest, the_packet_that_ends_bare_fast_dds_ends_no_component) {
+TEST_F(NetworkTest, the_packets_that_end_bare_fast_dds_end_no_component) {
   start();
   const auto before = system_->pids();
-  for (const std::uint16_t port : rtps_ports()) Thrower().throw_at(port, deadly_packet());
+  for (const Packet& packet : deadly_packets()) {
+    for (const std::uint16_t port : rtps_ports()) Thrower().throw_at(port, packet);
+  }
   Watcher watcher(system_->domain());
   EXPECT_TRUE(watcher.hears_data());
   EXPECT_EQ(system_->pids(), before) << system_->launcher().output();

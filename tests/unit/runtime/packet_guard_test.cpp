@@ -21,6 +21,7 @@ constexpr std::uint8_t kBigEndian = 0;
 constexpr std::uint8_t kLittleEndian = 1;
 constexpr std::uint8_t kInfoTimestamp = 0x09;
 constexpr std::uint8_t kData = 0x15;
+constexpr std::uint8_t kDataFrag = 0x16;
 constexpr std::uint8_t kStatistics = 0x80;
 
 Bytes message() {
@@ -88,6 +89,128 @@ TEST(PacketGuard, NoMessageCutAnywhereHidesStatistics) {
     const bool ends_with_them = size == 20 + 12 + 4 + 56;
     EXPECT_EQ(is_harmless(std::span(whole).first(size)), holds_none || ends_with_them) << size;
   }
+}
+
+/// Of a DATA_FRAG, little endian: from its entities on.
+struct Fragment {
+  std::uint32_t first = 1;
+  std::uint16_t count = 1;
+  std::uint16_t size = 8;
+  std::uint32_t sample = 8;
+  std::uint16_t to_inline_qos = 28;
+  Bytes inline_qos = {};
+  std::size_t payload = 8;
+  std::uint32_t high_sequence = 0;
+};
+
+void put(Bytes& bytes, std::size_t at, std::uint32_t value, int size) {
+  for (int i = 0; i < size; ++i) {
+    bytes[at + static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(value >> (8 * i));
+  }
+}
+
+Bytes packet_of(const Fragment& fragment) {
+  const std::size_t size = 32 + fragment.inline_qos.size() + fragment.payload;
+  const auto flags = static_cast<std::uint8_t>(fragment.inline_qos.empty() ? 1 : 3);
+  Bytes bytes = submessage(kDataFrag, static_cast<unsigned>(size), 32, flags);
+  put(bytes, 4 + 2, fragment.to_inline_qos, 2);
+  put(bytes, 4 + 12, fragment.high_sequence, 4);
+  put(bytes, 4 + 16, 1, 4);
+  put(bytes, 4 + 20, fragment.first, 4);
+  put(bytes, 4 + 24, fragment.count, 2);
+  put(bytes, 4 + 26, fragment.size, 2);
+  put(bytes, 4 + 28, fragment.sample, 4);
+  return message() + bytes + fragment.inline_qos + Bytes(fragment.payload);
+}
+
+const Bytes kNoParameters{1, 0, 0, 0};
+const Bytes kKeyHash{0x70, 0, 4, 0, 9, 9, 9, 9, 1, 0, 0, 0};
+
+TEST(PacketGuard, FragmentsThatSayWhatTheyHoldPass) {
+  EXPECT_TRUE(is_harmless(packet_of({})));
+  EXPECT_TRUE(is_harmless(packet_of({.inline_qos = kNoParameters})));
+  EXPECT_TRUE(is_harmless(packet_of({.inline_qos = kKeyHash})));
+  EXPECT_TRUE(is_harmless(packet_of({.first = 2, .count = 2, .sample = 30, .payload = 16})));
+  // The last one is as long as what is left; one that is encrypted is longer.
+  EXPECT_TRUE(is_harmless(packet_of({.first = 4, .sample = 30, .payload = 6})));
+  EXPECT_TRUE(is_harmless(packet_of({.payload = 60})));
+}
+
+TEST(PacketGuard, AFragmentThatEndsBareFastDdsIsRefused) {
+  // Parameters, and no payload behind them: Fast DDS frees what it did not allocate.
+  EXPECT_FALSE(is_harmless(packet_of({.inline_qos = kNoParameters, .payload = 0})));
+  EXPECT_FALSE(is_harmless(packet_of({.to_inline_qos = 400, .inline_qos = kNoParameters})));
+}
+
+TEST(PacketGuard, FragmentsThatDoNotLieWithinTheirSampleAreRefused) {
+  EXPECT_FALSE(is_harmless(packet_of({.first = 0})));
+  EXPECT_FALSE(is_harmless(packet_of({.first = 2})));
+  EXPECT_FALSE(is_harmless(packet_of({.count = 0})));
+  EXPECT_FALSE(is_harmless(packet_of({.count = 2, .payload = 16})));
+  EXPECT_FALSE(is_harmless(packet_of({.size = 0})));
+  EXPECT_FALSE(is_harmless(packet_of({.size = 1, .sample = 1})));
+  EXPECT_FALSE(is_harmless(packet_of({.sample = 0})));
+  EXPECT_FALSE(is_harmless(packet_of({.count = 0xffff, .size = 0xffff, .sample = 0xfffe0001})));
+  EXPECT_FALSE(is_harmless(packet_of({.payload = 7})));
+  EXPECT_FALSE(is_harmless(packet_of({.high_sequence = 0x100})));
+}
+
+/// A DATA with a place for everything, and flags.
+Bytes packet_with_data(std::uint8_t flags, std::uint16_t to_inline_qos, const Bytes& rest) {
+  Bytes bytes = submessage(kData, static_cast<unsigned>(20 + rest.size()), 20, flags);
+  put(bytes, 4 + 2, to_inline_qos, 2);
+  put(bytes, 4 + 16, 1, 4);
+  return message() + bytes + rest;
+}
+
+TEST(PacketGuard, DataThatDoNotLieWithinTheirSubmessageAreRefused) {
+  constexpr std::uint8_t kWithQos = 3;
+  constexpr std::uint8_t kWithPayload = 5;
+  constexpr std::uint8_t kWithBoth = 7;
+  const Bytes payload(8);
+  EXPECT_TRUE(is_harmless(packet_with_data(kWithPayload, 16, payload)));
+  EXPECT_TRUE(is_harmless(packet_with_data(kWithQos, 16, kKeyHash)));
+  EXPECT_TRUE(is_harmless(packet_with_data(kWithBoth, 16, kKeyHash + payload)));
+  EXPECT_FALSE(is_harmless(packet_with_data(kWithBoth, 16, kKeyHash)));
+  EXPECT_FALSE(is_harmless(packet_with_data(kWithPayload, 24, payload)));
+  EXPECT_FALSE(is_harmless(packet_with_data(kWithPayload, 12, payload)));
+  EXPECT_FALSE(is_harmless(packet_with_data(kWithPayload, 60000, payload)));
+  // A parameter that reaches beyond, and a list without an end.
+  EXPECT_FALSE(is_harmless(packet_with_data(kWithBoth, 16, Bytes{0x70, 0, 99, 0} + payload)));
+  EXPECT_FALSE(is_harmless(packet_with_data(kWithQos, 16, Bytes{0x70, 0, 4, 0, 9, 9, 9, 9})));
+}
+
+constexpr std::uint8_t kAcknack = 0x06;
+constexpr std::uint8_t kHeartbeat = 0x07;
+constexpr std::uint8_t kGap = 0x08;
+
+/// A sub-message of two entities and sequence numbers, given as pairs of high and low.
+Bytes packet_of_numbers(std::uint8_t kind, const std::vector<std::uint32_t>& numbers,
+                        std::size_t size) {
+  Bytes bytes = submessage(kind, static_cast<unsigned>(size), size);
+  for (std::size_t i = 0; i < numbers.size(); ++i) put(bytes, 4 + 8 + 4 * i, numbers[i], 4);
+  return message() + bytes;
+}
+
+TEST(PacketGuard, SequenceNumbersNobodyCountsToAreRefused) {
+  EXPECT_TRUE(is_harmless(packet_of_numbers(kHeartbeat, {0, 1, 0, 0}, 28)));
+  EXPECT_TRUE(is_harmless(packet_of_numbers(kHeartbeat, {0xff, 1, 0xff, 0xffffffff}, 28)));
+  EXPECT_FALSE(is_harmless(packet_of_numbers(kHeartbeat, {0, 1, 0x100, 0}, 28)));
+  EXPECT_FALSE(is_harmless(packet_of_numbers(kHeartbeat, {0x7fffffff, 1, 0x7fffffff, 1}, 28)));
+  EXPECT_FALSE(is_harmless(packet_of_numbers(kHeartbeat, {0, 1, 0, 1}, 24)));
+  EXPECT_TRUE(is_harmless(packet_of_numbers(kAcknack, {0, 0, 0}, 24)));
+  EXPECT_TRUE(is_harmless(packet_of_numbers(kAcknack, {0, 7, 256}, 24 + 32)));
+  EXPECT_FALSE(is_harmless(packet_of_numbers(kAcknack, {0, 7, 256}, 24 + 28)));
+  EXPECT_FALSE(is_harmless(packet_of_numbers(kAcknack, {0, 7, 257}, 24 + 64)));
+  EXPECT_FALSE(is_harmless(packet_of_numbers(kAcknack, {0x100, 0, 0}, 24)));
+}
+
+TEST(PacketGuard, AGapThatWouldKeepFastDdsBusyForEverIsRefused) {
+  EXPECT_TRUE(is_harmless(packet_of_numbers(kGap, {0, 1, 0, 2, 0}, 28)));
+  EXPECT_TRUE(is_harmless(packet_of_numbers(kGap, {0, 1, 0, 1'000'000, 0}, 28)));
+  EXPECT_FALSE(is_harmless(packet_of_numbers(kGap, {0, 1, 1, 0, 0}, 28)));
+  EXPECT_FALSE(is_harmless(packet_of_numbers(kGap, {0, 0, 0, 2, 0}, 28)));
+  EXPECT_FALSE(is_harmless(packet_of_numbers(kGap, {0x80000000, 0, 0, 2, 0}, 28)));
 }
 
 Bytes data_of(std::array<std::uint8_t, 4> writer, std::uint8_t kind = kData) {
