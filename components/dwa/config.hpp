@@ -65,9 +65,10 @@ struct ArrivalConfig {
 };
 
 struct RecoveryConfig {
-  /// s: odometry or a scan older than this stops the base: in time to have begun 0.3 s after the
-  /// last of them, with a control period to spare.
-  double input_timeout = 0.25;
+  /// s: odometry or a scan older than this stops the base. With a control period until that is
+  /// seen, and as much for the way to the base and its drive, braking has begun 0.3 s after the
+  /// last of them. Two periods of the laser: one scan may be lost on the way.
+  double input_timeout = 0.20;
   double transform_timeout = 0.05;  ///< s: the same of the transform, which is dated ahead
   double blocked_time = 1.5;  ///< s without an admissible trajectory before a new plan is asked for
   double patience = 4.0;      ///< s blocked before the base backs up

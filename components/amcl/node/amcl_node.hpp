@@ -31,7 +31,7 @@ struct AmclNodeConfig {
   InitialPoseConfig initial_pose;
   double transform_period = 0.05;  ///< s between two transforms published
   double transform_ahead =
-      0.2;                    ///< s, the transform is stamped ahead, for those who look up at now
+      0.15;                   ///< s, the transform is stamped ahead, for those who look up at now
   double cloud_period = 0.5;  ///< s between two particle clouds
   double save_period = 1.0;   ///< s between two poses saved to disk
   int cloud_size = 500;       ///< particles of a cloud, at most

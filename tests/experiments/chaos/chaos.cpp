@@ -55,10 +55,7 @@ ChaosResult run_chaos(const ChaosOptions& options, std::ostream& log) {
   fmt::print(log, "chaos: seed {}, {} faults{}{}\n", options.seed, options.faults,
              ground.abilities().network ? "" : "; no network faults: needs root and iptables",
              ground.abilities().disk ? "" : "; no full disk: needs root");
-  FaultPlan plan(options.seed,
-                 {"simulator", "lidar_driver", "camera_driver", "arm_driver", "amcl",
-                  "global_planner", "dwa", "sequencer"},
-                 ground.abilities(), options.gap);
+  FaultPlan plan(options.seed, options.components, ground.abilities(), options.gap);
   ChaosResult result;
   int left = options.faults;
   for (int number = 1; left > 0 && number <= kMostMissions; ++number) {

@@ -11,10 +11,13 @@ namespace coop::chaos {
 struct ChaosOptions {
   int faults = 200;
   std::uint64_t seed = 1;
-  double gap = 18.0;                  ///< s of simulated time between two faults, on average
-  double rate = 2.0;                  ///< of simulated time
-  double recovery = 30.0;             ///< s of wall time in which everything must be well again
-  double mission = 2400.0;            ///< s of simulated time a mission may take
+  double gap = 18.0;        ///< s of simulated time between two faults, on average
+  double rate = 2.0;        ///< of simulated time
+  double recovery = 30.0;   ///< s of wall time in which everything must be well again
+  double mission = 2400.0;  ///< s of simulated time a mission may take
+  /// Who is hit.
+  std::vector<std::string> components{"simulator", "lidar_driver",   "camera_driver", "arm_driver",
+                                      "amcl",      "global_planner", "dwa",           "sequencer"};
   std::vector<std::string> settings;  ///< further ones for the launcher
   std::filesystem::path out;          ///< faults.csv, report.md and what went wrong
 };

@@ -4,16 +4,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 namespace coop::chaos {
 namespace {
 
 constexpr double kMoving = 0.05;  ///< m/s
-constexpr double kNoise = 0.03;   ///< m/s, of slipping wheels
+/// Speed is the way gone in so long before and after, s: wheels that slip at random make that of a
+/// single tick uncertain by 0.02 m/s.
+constexpr double kWindow = 0.06;
+constexpr double kNoise = 0.03;  ///< m/s: what is left of it, three times over
 
 /// Two eggs of the mission nearer than this are one.
 constexpr double kSameEgg = 0.10;  ///< m
+
+/// Mean speed around motion[i], of what lies before `found`; none where nothing else does.
+std::optional<double> speed_at(const std::vector<Motion>& motion, std::size_t i, double found) {
+  const double time = motion[i].time;
+  std::size_t first = i;
+  std::size_t last = i;
+  while (first > 0 && motion[first - 1].time >= time - kWindow) --first;
+  while (last + 1 < motion.size() && motion[last + 1].time <= std::min(time + kWindow, found))
+    ++last;
+  if (motion[last].time <= motion[first].time) return std::nullopt;
+  return (motion[last].distance - motion[first].distance) /
+         (motion[last].time - motion[first].time);
+}
 
 }  // namespace
 
@@ -25,18 +42,22 @@ Stopping judge_stopping(const std::vector<Motion>& motion, double lost, double f
   double begun = lost;
   double slowest = 1e9;
   const double due = lost + kReaction + clock_error;
-  for (const Motion& now : motion) {
-    if (now.time <= lost) at_loss = now.speed;
-    if (now.time < lost || now.time > found) continue;
-    if (now.speed > slowest + kNoise) begun = now.time;
-    if (now.speed > slowest + kNoise || now.speed < slowest) slowest = now.speed;
-    if (now.time <= due) {
-      limit = now.speed;
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const double time = motion[i].time;
+    if (time > found) break;
+    const auto speed = speed_at(motion, i, found);
+    if (!speed) continue;
+    if (time <= lost) at_loss = *speed;
+    if (time < lost) continue;
+    if (*speed > slowest + kNoise) begun = time;
+    if (*speed > slowest + kNoise || *speed < slowest) slowest = *speed;
+    if (time <= due) {
+      limit = *speed;
       continue;
     }
-    const double since = now.time - due - kDriveDelay;
+    const double since = time - due - kDriveDelay;
     const double slowed = std::max(0.0, limit - kBraking * std::max(0.0, since));
-    if (now.speed > slowed + kNoise) result.is_safe = false;
+    if (*speed > slowed + kNoise) result.is_safe = false;
   }
   result.was_moving = at_loss > kMoving;
   result.begun_after = begun - lost;

@@ -9,10 +9,10 @@
 
 namespace coop::chaos {
 
-/// The robot's true speed at a simulated time.
+/// How far the robot has really gone at a simulated time.
 struct Motion {
-  double time = 0.0;   ///< s
-  double speed = 0.0;  ///< m/s, without sign
+  double time = 0.0;      ///< s
+  double distance = 0.0;  ///< m over ground since the start, whichever way
 };
 
 /// How the robot behaved while something it needs to drive was lost.

@@ -15,6 +15,8 @@ int main(int argc, char** argv) {
   app.add_option("--gap", options.gap, "s of simulated time between two faults, on average")
       ->check(CLI::Range(1.0, 1000.0));
   app.add_option("--rate", options.rate, "of simulated time")->check(CLI::Range(0.1, 20.0));
+  app.add_option("--components", options.components, "who is hit: these alone")
+      ->check(CLI::IsMember(options.components));
   app.add_option("--set", options.settings, "a setting for the launcher, as in coop up");
   app.add_option("-o,--output", options.out,
                  "folder for faults.csv, report.md and logs of what went wrong");

@@ -21,8 +21,11 @@ Observer::Observer(int domain)
   components_.node().subscribe<coop_msgs::msg::GroundTruth>(
       "ground_truth", runtime::Qos::kSensorStream,
       [this](const coop_msgs::msg::GroundTruth& truth) {
+        const auto& from = truth_.robot().position();
+        const auto& to = truth.robot().position();
+        if (!motion_.empty()) gone_ += std::hypot(to.x() - from.x(), to.y() - from.y());
         truth_ = truth;
-        motion_.push_back({simulated(), std::abs(truth.velocity().linear().x())});
+        motion_.push_back({simulated(), gone_});
         if (motion_.size() > kMotionKept) motion_.pop_front();
       });
 }

@@ -39,6 +39,7 @@ class Observer {
   coop_msgs::msg::MissionStatus mission_;
   coop_msgs::msg::GroundTruth truth_;
   std::deque<Motion> motion_;
+  double gone_ = 0.0;  ///< m
 };
 
 }  // namespace coop::chaos

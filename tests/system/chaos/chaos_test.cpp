@@ -12,7 +12,7 @@ ChaosOptions short_run() {
   ChaosOptions options;
   options.faults = 20;
   options.gap = 5.0;
-  options.rate = 3.0;
+  options.rate = 2.0;
   options.recovery = 60.0;  // the machine may be busy
   return options;
 }

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/random.hpp"
 
 namespace coop::chaos {
 namespace {
@@ -12,14 +15,23 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// 0.5 m/s, and from `brakes` s on slower by 0.8 m/s2.
-std::vector<Motion> drive(double brakes) {
+/// Fifty times a second for three seconds, at a speed that depends on the time.
+template <class SpeedAt>
+std::vector<Motion> drive_at(const SpeedAt& speed_at) {
   std::vector<Motion> motion;
+  double distance = 0.0;
   for (int i = 0; i < 150; ++i) {
     const double time = 0.02 * i;
-    motion.push_back({time, std::max(0.0, 0.5 - 0.8 * std::max(0.0, time - brakes))});
+    distance += 0.02 * speed_at(time);
+    motion.push_back({time, distance});
   }
   return motion;
+}
+
+/// 0.5 m/s, and from `brakes` s on slower by 0.8 m/s2.
+std::vector<Motion> drive(double brakes) {
+  return drive_at(
+      [brakes](double time) { return std::max(0.0, 0.5 - 0.8 * std::max(0.0, time - brakes)); });
 }
 
 TEST(JudgeStopping, WhoBrakesInTimeIsSafe) {
@@ -33,14 +45,37 @@ TEST(JudgeStopping, WhoDrivesOnIsNot) {
 }
 
 TEST(JudgeStopping, WhoBrakesAndDrivesOffAgainBeforeItIsBackIsNot) {
-  std::vector<Motion> motion = drive(1.2);
-  for (Motion& now : motion) {
-    if (now.time > 2.4) now.speed = 0.3;
-  }
+  const std::vector<Motion> motion = drive_at([](double time) {
+    return time > 2.4 ? 0.3 : std::max(0.0, 0.5 - 0.8 * std::max(0.0, time - 1.2));
+  });
   const Stopping stopping = judge_stopping(motion, 1.0, 3.0, 0.05);
   EXPECT_FALSE(stopping.is_safe);
-  EXPECT_NEAR(stopping.begun_after, 1.42, 0.03);
+  EXPECT_NEAR(stopping.begun_after, 1.42, 0.07);
   EXPECT_TRUE(judge_stopping(motion, 1.0, 2.3, 0.05).is_safe) << "it was back by then";
+}
+
+TEST(JudgeStopping, SlippingWheelsAreNoSpeed) {
+  RandomStream random(1, "judge_test");
+  int unsafe = 0;
+  for (int run = 0; run < 1000; ++run) {
+    std::vector<Motion> motion = drive(1.35);
+    double slipped = 0.0;  // as the simulator's wheels do
+    for (std::size_t i = 1; i < motion.size(); ++i) {
+      const double rolled = motion[i].distance - motion[i - 1].distance;
+      slipped += 0.004 * std::sqrt(0.5 * rolled) * random.normal();
+      motion[i - 1].distance += slipped;
+    }
+    motion.pop_back();
+    if (!judge_stopping(motion, 1.0, 2.9, 0.05).is_safe) ++unsafe;
+  }
+  EXPECT_EQ(unsafe, 0) << "of 1000";
+}
+
+TEST(JudgeStopping, WhoGoesOnToSpeedUpIsNot) {
+  const auto motion = drive_at([](double time) {
+    return time < 1.55 ? 0.3 * time : std::max(0.0, 0.465 - 0.8 * (time - 1.55));
+  });
+  EXPECT_FALSE(judge_stopping(motion, 1.0, 2.9, 0.04).is_safe) << "0.21 s too late at 0.3 m/s2";
 }
 
 TEST(JudgeStopping, AShortLossAsksForNothing) {
