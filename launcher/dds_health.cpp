@@ -3,6 +3,7 @@
 #include <sys/eventfd.h>
 
 #include <cstdint>
+#include <utility>
 
 #include "coop_msgs/msg/ComponentStatus.h"
 #include "coop_msgs/msg/MissionStatus.h"
@@ -64,6 +65,7 @@ Health health_of(std::uint8_t state) {
 struct DdsHealth::Impl {
   runtime::Transport& transport;
   Inbox<ComponentStatus> inbox;
+  std::optional<std::string> mended = std::nullopt;
 };
 
 DdsHealth::DdsHealth(runtime::Transport& transport)
@@ -74,7 +76,7 @@ int DdsHealth::wake_fd() const {
 }
 
 std::vector<Heartbeat> DdsHealth::take() {
-  impl_->transport.mend();
+  if (auto why = impl_->transport.mend()) impl_->mended = std::move(why);
   std::vector<Heartbeat> heartbeats;
   impl_->inbox.drain([&](const ComponentStatus& status) {
     heartbeats.push_back({.component = status.name(),
@@ -84,6 +86,10 @@ std::vector<Heartbeat> DdsHealth::take() {
                           .host = status.host()});
   });
   return heartbeats;
+}
+
+std::optional<std::string> DdsHealth::mended() {
+  return std::exchange(impl_->mended, std::nullopt);
 }
 
 struct MissionWatch::Impl {

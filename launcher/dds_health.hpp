@@ -18,6 +18,7 @@ class DdsHealth : public HealthSource {
   ~DdsHealth() override;
   [[nodiscard]] int wake_fd() const override;
   [[nodiscard]] std::vector<Heartbeat> take() override;
+  [[nodiscard]] std::optional<std::string> mended() override;
 
  private:
   struct Impl;

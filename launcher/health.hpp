@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ class HealthSource {
   [[nodiscard]] virtual int wake_fd() const = 0;
   /// What has arrived since the last call, oldest first.
   [[nodiscard]] virtual std::vector<Heartbeat> take() = 0;
+  /// What was amiss with listening and take() has mended, since the last call; for people.
+  [[nodiscard]] virtual std::optional<std::string> mended() { return std::nullopt; }
 };
 
 }  // namespace coop::launcher

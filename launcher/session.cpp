@@ -151,6 +151,7 @@ class Session {
 
   void take_heartbeats() {
     for (const Heartbeat& heartbeat : health_.take()) supervisor_.on_heartbeat(heartbeat, now());
+    if (const auto why = health_.mended()) report("", *why);
   }
 
   void take_mission_end() {

@@ -16,8 +16,8 @@ namespace coop::runtime {
 
 namespace dds = eprosima::fastdds::dds;
 
-Membership::Membership(const DdsOptions& options, std::function<void()> on_server)
-    : watch(std::move(on_server)), participant(create_participant(options, &watch)) {
+Membership::Membership(const DdsOptions& options, dds::DomainParticipantListener& listener)
+    : participant(create_participant(options, &listener)) {
   dds::PublisherQos publisher_qos = participant->get_default_publisher_qos();
   dds::SubscriberQos subscriber_qos = participant->get_default_subscriber_qos();
   if (!options.partition.empty()) {
@@ -40,9 +40,11 @@ dds::Topic* Membership::topic(const std::string& name, const MessageType& type) 
   const std::scoped_lock lock(mutex_);
   auto& entry = topics_[name];
   if (entry == nullptr) {
-    dds::TypeSupport support(type.new_dds_type());
-    support.register_type(participant, type.name());
-    entry = participant->create_topic("rt/" + name, type.name(), dds::TOPIC_QOS_DEFAULT);
+    if (participant->find_type(type.name()) == nullptr) {
+      dds::TypeSupport support(type.new_dds_type());
+      support.register_type(participant, type.name());
+    }
+    entry = participant->create_topic(name, type.name(), dds::TOPIC_QOS_DEFAULT);
   }
   if (entry == nullptr) throw std::runtime_error("DDS: cannot create topic " + name);
   if (entry->get_type_name() != type.name()) {

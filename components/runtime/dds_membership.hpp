@@ -1,14 +1,13 @@
 #pragma once
-#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
 
 #include "runtime/dds_transport.hpp"
-#include "runtime/server_watch.hpp"
 
 namespace eprosima::fastdds::dds {
 class DomainParticipant;
+class DomainParticipantListener;
 class Publisher;
 class Subscriber;
 class Topic;
@@ -16,21 +15,29 @@ class Topic;
 
 namespace coop::runtime {
 
+/// What is made in a participant, and made anew in its successor.
+class DdsEndpoint {
+ public:
+  virtual ~DdsEndpoint() = default;
+  virtual void enter() = 0;
+  virtual void leave() = 0;
+  /// From any thread: the one that uses it should look.
+  virtual void nudge() {}
+};
+
 /// A participant and what belongs to it, from joining the domain to leaving it.
 struct Membership {
-  ServerWatch::Wall::time_point begin = ServerWatch::Wall::now();
-  ServerWatch watch;
   eprosima::fastdds::dds::DomainParticipant* participant;
   eprosima::fastdds::dds::Publisher* publisher = nullptr;
   eprosima::fastdds::dds::Subscriber* subscriber = nullptr;
 
-  /// `on_server`: the discovery server was found; called on a thread of Fast DDS. Throws
-  /// std::runtime_error.
-  Membership(const DdsOptions& options, std::function<void()> on_server);
+  /// `listener` must outlive it. Throws std::runtime_error.
+  Membership(const DdsOptions& options,
+             eprosima::fastdds::dds::DomainParticipantListener& listener);
   ~Membership();
   Membership(const Membership&) = delete;
   Membership& operator=(const Membership&) = delete;
-  /// Throws std::runtime_error where the topic has another type.
+  /// `name`: as on the wire. Throws std::runtime_error where the topic has another type.
   eprosima::fastdds::dds::Topic* topic(const std::string& name, const MessageType& type);
 
  private:

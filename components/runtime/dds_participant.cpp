@@ -5,6 +5,7 @@
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
@@ -144,6 +145,11 @@ void add_security(const DdsOptions& options, dds::DomainParticipantQos& qos) {
 std::chrono::seconds lease(const DdsSettings& settings) {
   if (settings.lease > 0) return std::chrono::seconds(settings.lease);
   return settings.discovery == "server" ? kServedLease : kLease;
+}
+
+std::chrono::milliseconds forgotten_after(const DdsSettings& settings) {
+  const std::chrono::milliseconds all = lease(settings);
+  return std::max(all - kSignOfLife, all / 2);
 }
 
 dds::DomainParticipantQos participant_qos(dds::DomainParticipantQos base, const DdsOptions& options,

@@ -17,6 +17,12 @@ struct Introductions;
 /// How long somebody who is not heard is remembered.
 [[nodiscard]] std::chrono::seconds lease(const DdsSettings& settings);
 
+/// Every participant shows a sign of life more often.
+inline constexpr std::chrono::seconds kSignOfLife{1};
+/// Who stood still for longer may have been forgotten by others: the lease counts from the last
+/// sign of life.
+[[nodiscard]] std::chrono::milliseconds forgotten_after(const DdsSettings& settings);
+
 /// The one place where settings become a participant: transports, discovery, lease, security.
 /// Throws config::Error for an interface or host that is not there.
 [[nodiscard]] eprosima::fastdds::dds::DomainParticipantQos participant_qos(

@@ -1,140 +1,79 @@
 #include "runtime/dds_transport.hpp"
 
+#include <fmt/format.h>
+
+#include <deque>
 #include <fastdds/dds/publisher/DataWriter.hpp>
-#include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
-#include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 #include <map>
 #include <mutex>
 #include <set>
-#include <sstream>
 #include <stdexcept>
+#include <utility>
 
+#include "runtime/dds_matches.hpp"
 #include "runtime/dds_membership.hpp"
 #include "runtime/dds_participant.hpp"
 #include "runtime/dds_qos.hpp"
+#include "runtime/pause_watch.hpp"
+#include "runtime/server_watch.hpp"
 
 namespace coop::runtime {
 
 namespace dds = eprosima::fastdds::dds;
 
-/// What is made in a participant, and made anew in its successor.
-class DdsEndpoint {
- public:
-  virtual ~DdsEndpoint() = default;
-  virtual void enter() = 0;
-  virtual void leave() = 0;
-  /// From any thread: the one that uses it should look.
-  virtual void nudge() {}
+/// A membership that knows whether it sees its discovery server.
+struct WatchedMembership {
+  ServerWatch::Wall::time_point begin = ServerWatch::Wall::now();
+  ServerWatch watch;
+  Membership membership;
+
+  WatchedMembership(const DdsOptions& options, std::function<void()> on_server)
+      : watch(std::move(on_server)), membership(options, watch) {}
 };
 
 struct DdsTransport::Impl {
   DdsOptions options;
   bool is_served = options.settings.discovery == "server";
+  /// A lockstep goes by the ids of its endpoints.
+  bool may_join_anew = !options.complete;
   std::mutex endpoints_mutex;  ///< never held while Fast DDS is called
   std::set<DdsEndpoint*> endpoints;
   std::weak_ptr<std::function<void()>> match_callback;
-  std::unique_ptr<Membership> membership;
+  std::unique_ptr<WatchedMembership> present;
   /// Waits for the server while the other one has lost it.
-  std::unique_ptr<Membership> successor;
+  std::unique_ptr<WatchedMembership> successor;
+  /// After which others have forgotten this program; until it has joined anew.
+  std::optional<std::chrono::nanoseconds> pause;
+  std::unique_ptr<PauseWatch> pause_watch;  // last: its thread nudges
 
   explicit Impl(const DdsOptions& wanted);
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
-  std::unique_ptr<Membership> join();
+  [[nodiscard]] Membership& membership() const { return present->membership; }
+  std::unique_ptr<WatchedMembership> join();
   void add(DdsEndpoint& endpoint);
   void remove(DdsEndpoint& endpoint);
-  bool join_anew();
+  void nudge();
+  [[nodiscard]] bool has_successor();
+  [[nodiscard]] bool has_served_successor();
+  std::optional<std::string> mend();
 };
 
 namespace {
 
 /// Of the server itself (config/dds/discovery_server.xml): after that it is known to be gone.
 constexpr std::chrono::seconds kServerLease{2};
-/// Programs show one more often.
-constexpr std::chrono::seconds kSignOfLife{1};
 /// A server in reach is found sooner.
 constexpr std::chrono::seconds kPatience{3};
 
 [[noreturn]] void throw_dds(const std::string& what) {
   throw std::runtime_error("DDS: " + what);
 }
-
-std::string identity(const eprosima::fastrtps::rtps::GUID_t& guid) {
-  std::ostringstream out;
-  out << guid;
-  return std::move(out).str();
-}
-
-/// The counterparts an endpoint is matched with at present. Told by listener threads.
-class Matches {
- public:
-  explicit Matches(std::weak_ptr<std::function<void()>> on_match)
-      : on_match_(std::move(on_match)) {}
-  void change(const dds::InstanceHandle_t& counterpart, int change) {
-    eprosima::fastrtps::rtps::GUID_t guid;
-    eprosima::fastrtps::rtps::iHandle2GUID(guid, counterpart);
-    {
-      const std::scoped_lock lock(mutex_);
-      if (change > 0) {
-        counterparts_.insert(identity(guid));
-      } else {
-        counterparts_.erase(identity(guid));
-      }
-    }
-    if (const auto callback = on_match_.lock()) (*callback)();
-  }
-  void clear() {
-    {
-      const std::scoped_lock lock(mutex_);
-      counterparts_.clear();
-    }
-    if (const auto callback = on_match_.lock()) (*callback)();
-  }
-  [[nodiscard]] bool contains(const std::string& id) const {
-    const std::scoped_lock lock(mutex_);
-    return counterparts_.contains(id);
-  }
-  [[nodiscard]] int count() const {
-    const std::scoped_lock lock(mutex_);
-    return static_cast<int>(counterparts_.size());
-  }
-
- private:
-  std::weak_ptr<std::function<void()>> on_match_;
-  mutable std::mutex mutex_;
-  std::set<std::string> counterparts_;
-};
-
-class ReaderListener : public dds::DataReaderListener {
- public:
-  ReaderListener(std::function<void()> on_data, std::weak_ptr<std::function<void()>> on_match)
-      : matches(std::move(on_match)), on_data_(std::move(on_data)) {}
-  void on_data_available(dds::DataReader*) override { on_data_(); }
-  void on_subscription_matched(dds::DataReader*,
-                               const dds::SubscriptionMatchedStatus& status) override {
-    matches.change(status.last_publication_handle, status.current_count_change);
-  }
-  Matches matches;
-
- private:
-  std::function<void()> on_data_;
-};
-
-class WriterListener : public dds::DataWriterListener {
- public:
-  explicit WriterListener(std::weak_ptr<std::function<void()>> on_match)
-      : matches(std::move(on_match)) {}
-  void on_publication_matched(dds::DataWriter*,
-                              const dds::PublicationMatchedStatus& status) override {
-    matches.change(status.last_subscription_handle, status.current_count_change);
-  }
-  Matches matches;
-};
 
 std::uint64_t to_number(const eprosima::fastrtps::rtps::SequenceNumber_t& sequence) {
   return (static_cast<std::uint64_t>(sequence.high) << 32U) + sequence.low;
@@ -183,13 +122,13 @@ class DdsWriter : public Writer, private DdsEndpoint {
 
  private:
   void enter() override {
-    dds::Publisher& publisher = *transport_->membership->publisher;
+    dds::Publisher& publisher = *transport_->membership().publisher;
     dds::DataWriterQos qos = publisher.get_default_datawriter_qos();
     apply_intent(intent_, transport_->options, qos);
     keeps_last_ =
-        transport_->is_served && qos.durability().kind == dds::TRANSIENT_LOCAL_DURABILITY_QOS;
-    writer_ = publisher.create_datawriter(transport_->membership->topic(topic_, type_), qos,
-                                          &listener_, dds::StatusMask::publication_matched());
+        transport_->may_join_anew && qos.durability().kind == dds::TRANSIENT_LOCAL_DURABILITY_QOS;
+    writer_ = publisher.create_datawriter(transport_->membership().topic("rt/" + topic_, type_),
+                                          qos, &listener_, dds::StatusMask::publication_matched());
     if (writer_ == nullptr) throw_dds("cannot create a writer of " + topic_);
     id_ = identity(writer_->guid());
     sequence_ = 0;
@@ -199,7 +138,7 @@ class DdsWriter : public Writer, private DdsEndpoint {
   }
   void leave() override {
     writer_->set_listener(nullptr);
-    transport_->membership->publisher->delete_datawriter(writer_);
+    transport_->membership().publisher->delete_datawriter(writer_);
     listener_.matches.clear();
   }
 
@@ -238,6 +177,18 @@ class DdsReader : public Reader, private DdsEndpoint {
 
   const std::string& id() const override { return id_; }
   bool take(Sample& sample) override {
+    if (left_.empty()) return take_new(sample);
+    sample = std::move(left_.front());
+    left_.pop_front();
+    return true;
+  }
+  int matched_writers() const override { return listener_.matches.count(); }
+  bool hears(const std::string& writer_id) const override {
+    return listener_.matches.contains(writer_id);
+  }
+
+ private:
+  bool take_new(Sample& sample) {
     std::shared_ptr<void> message = type_.create();
     dds::SampleInfo info;
     while (reader_->take_next_sample(message.get(), &info) ==
@@ -250,12 +201,6 @@ class DdsReader : public Reader, private DdsEndpoint {
     }
     return false;
   }
-  int matched_writers() const override { return listener_.matches.count(); }
-  bool hears(const std::string& writer_id) const override {
-    return listener_.matches.contains(writer_id);
-  }
-
- private:
   /// Most samples come from the writer of the sample before.
   const std::string& writer_name(const eprosima::fastrtps::rtps::GUID_t& guid) {
     if (last_writer_name_.empty() || guid != last_writer_) {
@@ -266,18 +211,20 @@ class DdsReader : public Reader, private DdsEndpoint {
   }
 
   void enter() override {
-    dds::Subscriber& subscriber = *transport_->membership->subscriber;
+    dds::Subscriber& subscriber = *transport_->membership().subscriber;
     dds::DataReaderQos qos = subscriber.get_default_datareader_qos();
     apply_intent(intent_, transport_->options, qos);
     reader_ = subscriber.create_datareader(
-        transport_->membership->topic(topic_, type_), qos, &listener_,
+        transport_->membership().topic("rt/" + topic_, type_), qos, &listener_,
         dds::StatusMask::data_available() << dds::StatusMask::subscription_matched());
     if (reader_ == nullptr) throw_dds("cannot create a reader of " + topic_);
     id_ = identity(reader_->guid());
   }
   void leave() override {
     reader_->set_listener(nullptr);
-    transport_->membership->subscriber->delete_datareader(reader_);
+    for (Sample sample; take_new(sample);) left_.push_back(std::move(sample));
+    if (!left_.empty()) on_data_();
+    transport_->membership().subscriber->delete_datareader(reader_);
     listener_.matches.clear();
   }
   void nudge() override { on_data_(); }
@@ -292,17 +239,19 @@ class DdsReader : public Reader, private DdsEndpoint {
   std::string id_;
   eprosima::fastrtps::rtps::GUID_t last_writer_;
   std::string last_writer_name_;
+  std::deque<Sample> left_;  ///< not yet taken when the participant was left
 };
 
 }  // namespace
 
-DdsTransport::Impl::Impl(const DdsOptions& wanted) : options(wanted), membership(join()) {}
+DdsTransport::Impl::Impl(const DdsOptions& wanted) : options(wanted), present(join()) {
+  if (!may_join_anew) return;
+  pause_watch =
+      std::make_unique<PauseWatch>(forgotten_after(options.settings), [this] { nudge(); });
+}
 
-std::unique_ptr<Membership> DdsTransport::Impl::join() {
-  return std::make_unique<Membership>(options, [this] {
-    const std::scoped_lock lock(endpoints_mutex);
-    for (DdsEndpoint* endpoint : endpoints) endpoint->nudge();
-  });
+std::unique_ptr<WatchedMembership> DdsTransport::Impl::join() {
+  return std::make_unique<WatchedMembership>(options, [this] { nudge(); });
 }
 
 void DdsTransport::Impl::add(DdsEndpoint& endpoint) {
@@ -315,14 +264,25 @@ void DdsTransport::Impl::remove(DdsEndpoint& endpoint) {
   endpoints.erase(&endpoint);
 }
 
-bool DdsTransport::Impl::join_anew() {
-  if (!is_served) return false;
+void DdsTransport::Impl::nudge() {
+  const std::scoped_lock lock(endpoints_mutex);
+  for (DdsEndpoint* endpoint : endpoints) endpoint->nudge();
+}
+
+/// Whether there is one that can take over; makes it when it is due.
+bool DdsTransport::Impl::has_successor() {
+  if (is_served) return has_served_successor();
+  if (pause) successor = join();
+  return successor != nullptr;
+}
+
+bool DdsTransport::Impl::has_served_successor() {
   if (!successor) {
     const auto given_up = lease(options.settings) - kServerLease - kSignOfLife;
-    if (membership->watch.has_lost_server(given_up)) successor = join();
+    if (pause || present->watch.has_lost_server(given_up)) successor = join();
     return false;
   }
-  if (membership->watch.sees_server()) {
+  if (!pause && present->watch.sees_server()) {
     successor.reset();  // it had not been given up
     return false;
   }
@@ -331,10 +291,19 @@ bool DdsTransport::Impl::join_anew() {
     if (ServerWatch::Wall::now() - successor->begin > kPatience) successor.reset();
     return false;
   }
-  for (DdsEndpoint* endpoint : endpoints) endpoint->leave();
-  membership = std::move(successor);
-  for (DdsEndpoint* endpoint : endpoints) endpoint->enter();
   return true;
+}
+
+std::optional<std::string> DdsTransport::Impl::mend() {
+  if (const auto seen = pause_watch ? pause_watch->take() : std::nullopt)
+    pause = std::max(pause, seen);
+  if (!may_join_anew || !has_successor()) return std::nullopt;
+  for (DdsEndpoint* endpoint : endpoints) endpoint->leave();
+  present = std::move(successor);
+  for (DdsEndpoint* endpoint : endpoints) endpoint->enter();
+  const auto ended = std::exchange(pause, std::nullopt);
+  if (!ended) return "the discovery server was out of reach for too long: joined anew";
+  return fmt::format("stopped for {:.1f} s: joined anew", to_seconds(*ended));
 }
 
 DdsTransport::DdsTransport(const DdsOptions& options) : impl_(std::make_shared<Impl>(options)) {}
@@ -357,8 +326,12 @@ std::shared_ptr<void> DdsTransport::on_match(std::function<void()> callback) {
   return kept;
 }
 
-bool DdsTransport::mend() {
-  return impl_->join_anew();
+std::optional<std::string> DdsTransport::mend() {
+  return impl_->mend();
+}
+
+void DdsTransport::note_pause(Duration pause) {
+  impl_->pause = pause;
 }
 
 }  // namespace coop::runtime

@@ -36,9 +36,13 @@ class DdsTransport : public Transport {
   std::unique_ptr<Reader> create_reader(const std::string& topic, const MessageType& type, Qos qos,
                                         std::function<void()> on_data) override;
   [[nodiscard]] std::shared_ptr<void> on_match(std::function<void()> callback) override;
-  /// Joins the domain anew where a discovery server is back that has given this program up
-  /// (docs/hosts.md): its half of old connections remains, and never fits again (Fast DDS 2.9.1).
-  bool mend() override;
+  /// Joins the domain anew where others have forgotten this program: it stood still for longer than
+  /// its lease, or a discovery server is back that has given it up (docs/hosts.md). Its half of old
+  /// connections remains, and never fits again (Fast DDS 2.9.1). Latched topics are told again.
+  /// Never in lockstep (DdsOptions::complete).
+  std::optional<std::string> mend() override;
+  /// The next mend() joins anew, as after a pause that was not noticed.
+  void note_pause(Duration pause);
 
  private:
   struct Impl;

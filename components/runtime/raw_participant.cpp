@@ -1,26 +1,24 @@
 #include "runtime/raw_participant.hpp"
 
 #include <cstring>
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
-#include <fastdds/dds/publisher/qos/PublisherQos.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/subscriber/qos/SubscriberQos.hpp>
-#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
 #include <map>
 #include <mutex>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
+#include "runtime/dds_membership.hpp"
 #include "runtime/dds_participant.hpp"
+#include "runtime/pause_watch.hpp"
 #include "runtime/raw_qos.hpp"
 
 namespace coop::runtime {
@@ -77,6 +75,15 @@ class DiscoveryListener : public dds::DomainParticipantListener {
     const std::scoped_lock lock(mutex_);
     return std::exchange(events_, {});
   }
+  /// All are lost: the participant that knew them is gone.
+  void lose_all() {
+    const std::scoped_lock lock(mutex_);
+    for (auto& [id, endpoint] : known_) {
+      events_.push_back({DiscoveryEvent::Kind::kLost, std::move(endpoint)});
+    }
+    known_.clear();
+    names_.clear();
+  }
 
  private:
   template <class ProxyData>
@@ -84,14 +91,19 @@ class DiscoveryListener : public dds::DomainParticipantListener {
     {
       const std::scoped_lock lock(mutex_);
       const auto name = names_.find(data.guid().guidPrefix);
-      events_.push_back({.kind = kind,
-                         .endpoint = {.id = id_of(data.guid()),
-                                      .is_writer = is_writer,
-                                      .topic = {.name = data.topicName().to_string(),
-                                                .type = data.typeName().to_string(),
-                                                .keyed = data.topicKind() == rtps::WITH_KEY},
-                                      .qos = std::move(qos),
-                                      .participant = name == names_.end() ? "" : name->second}});
+      DiscoveredEndpoint endpoint{.id = id_of(data.guid()),
+                                  .is_writer = is_writer,
+                                  .topic = {.name = data.topicName().to_string(),
+                                            .type = data.typeName().to_string(),
+                                            .keyed = data.topicKind() == rtps::WITH_KEY},
+                                  .qos = std::move(qos),
+                                  .participant = name == names_.end() ? "" : name->second};
+      if (kind == DiscoveryEvent::Kind::kLost) {
+        known_.erase(endpoint.id);
+      } else {
+        known_[endpoint.id] = endpoint;
+      }
+      events_.push_back({kind, std::move(endpoint)});
     }
     on_news_();
   }
@@ -99,6 +111,7 @@ class DiscoveryListener : public dds::DomainParticipantListener {
   std::function<void()> on_news_;
   std::mutex mutex_;
   std::map<rtps::GuidPrefix_t, std::string> names_;
+  std::map<EndpointId, DiscoveredEndpoint> known_;
   std::vector<DiscoveryEvent> events_;
 };
 
@@ -116,6 +129,10 @@ class Counterparts {
     }
     on_news_();
   }
+  void clear() {
+    const std::scoped_lock lock(mutex_);
+    ids_.clear();
+  }
   [[nodiscard]] int count() const {
     const std::scoped_lock lock(mutex_);
     return static_cast<int>(ids_.size());
@@ -131,21 +148,31 @@ class Counterparts {
   std::set<EndpointId> ids_;
 };
 
-class DdsRawReader : public RawReader, private dds::DataReaderListener {
+/// What endpoints need of the participant they are in.
+struct Seat {
+  std::function<void()> on_news;
+  std::unique_ptr<Membership> membership;
+  std::set<DdsEndpoint*> endpoints;
+
+  dds::Topic* topic(const WireTopic& wanted) const {
+    return membership->topic(wanted.name, RawMessageType(wanted.type, wanted.keyed));
+  }
+};
+
+class DdsRawReader : public RawReader, private DdsEndpoint, private dds::DataReaderListener {
  public:
-  DdsRawReader(dds::Subscriber& subscriber, dds::Topic* topic, const dds::DataReaderQos& qos,
-               const std::function<void()>& on_news, std::function<void(RawSample&&)> on_sample)
-      : counterparts_(on_news), on_sample_(std::move(on_sample)), subscriber_(subscriber) {
-    reader_ = subscriber_.create_datareader(topic, qos, this,
-                                            dds::StatusMask::data_available()
-                                                << dds::StatusMask::subscription_matched());
-    if (reader_ == nullptr) {
-      throw std::runtime_error("DDS: cannot create a reader of " + topic->get_name());
-    }
+  DdsRawReader(Seat& seat, WireTopic topic, WireQos qos, std::function<void(RawSample&&)> on_sample)
+      : seat_(seat),
+        topic_(std::move(topic)),
+        qos_(std::move(qos)),
+        counterparts_(seat.on_news),
+        on_sample_(std::move(on_sample)) {
+    enter();
+    seat_.endpoints.insert(this);
   }
   ~DdsRawReader() override {
-    reader_->set_listener(nullptr);
-    subscriber_.delete_datareader(reader_);
+    seat_.endpoints.erase(this);
+    leave();
   }
   DdsRawReader(const DdsRawReader&) = delete;
   DdsRawReader& operator=(const DdsRawReader&) = delete;
@@ -155,6 +182,22 @@ class DdsRawReader : public RawReader, private dds::DataReaderListener {
   }
 
  private:
+  void enter() override {
+    dds::Subscriber& subscriber = *seat_.membership->subscriber;
+    dds::DataReaderQos qos = subscriber.get_default_datareader_qos();
+    apply(qos_, qos);
+    reader_ = subscriber.create_datareader(seat_.topic(topic_), qos, this,
+                                           dds::StatusMask::data_available()
+                                               << dds::StatusMask::subscription_matched());
+    if (reader_ == nullptr) {
+      throw std::runtime_error("DDS: cannot create a reader of " + topic_.name);
+    }
+  }
+  void leave() override {
+    reader_->set_listener(nullptr);
+    seat_.membership->subscriber->delete_datareader(reader_);
+    counterparts_.clear();
+  }
   void on_subscription_matched(dds::DataReader*,
                                const dds::SubscriptionMatchedStatus& status) override {
     counterparts_.change(status.last_publication_handle, status.current_count_change);
@@ -174,26 +217,24 @@ class DdsRawReader : public RawReader, private dds::DataReaderListener {
     }
   }
 
+  Seat& seat_;
+  WireTopic topic_;
+  WireQos qos_;
   Counterparts counterparts_;
   std::function<void(RawSample&&)> on_sample_;
-  dds::Subscriber& subscriber_;
   dds::DataReader* reader_ = nullptr;
 };
 
-class DdsRawWriter : public RawWriter, private dds::DataWriterListener {
+class DdsRawWriter : public RawWriter, private DdsEndpoint, private dds::DataWriterListener {
  public:
-  DdsRawWriter(dds::Publisher& publisher, dds::Topic* topic, const dds::DataWriterQos& qos,
-               const std::function<void()>& on_news)
-      : counterparts_(on_news), publisher_(publisher) {
-    writer_ =
-        publisher_.create_datawriter(topic, qos, this, dds::StatusMask::publication_matched());
-    if (writer_ == nullptr) {
-      throw std::runtime_error("DDS: cannot create a writer of " + topic->get_name());
-    }
+  DdsRawWriter(Seat& seat, WireTopic topic, WireQos qos)
+      : seat_(seat), topic_(std::move(topic)), qos_(std::move(qos)), counterparts_(seat.on_news) {
+    enter();
+    seat_.endpoints.insert(this);
   }
   ~DdsRawWriter() override {
-    writer_->set_listener(nullptr);
-    publisher_.delete_datawriter(writer_);
+    seat_.endpoints.erase(this);
+    leave();
   }
   DdsRawWriter(const DdsRawWriter&) = delete;
   DdsRawWriter& operator=(const DdsRawWriter&) = delete;
@@ -207,87 +248,78 @@ class DdsRawWriter : public RawWriter, private dds::DataWriterListener {
   }
 
  private:
+  void enter() override {
+    dds::Publisher& publisher = *seat_.membership->publisher;
+    dds::DataWriterQos qos = publisher.get_default_datawriter_qos();
+    apply(qos_, qos);
+    writer_ = publisher.create_datawriter(seat_.topic(topic_), qos, this,
+                                          dds::StatusMask::publication_matched());
+    if (writer_ == nullptr) {
+      throw std::runtime_error("DDS: cannot create a writer of " + topic_.name);
+    }
+  }
+  void leave() override {
+    writer_->set_listener(nullptr);
+    seat_.membership->publisher->delete_datawriter(writer_);
+    counterparts_.clear();
+  }
   void on_publication_matched(dds::DataWriter*,
                               const dds::PublicationMatchedStatus& status) override {
     counterparts_.change(status.last_subscription_handle, status.current_count_change);
   }
 
+  Seat& seat_;
+  WireTopic topic_;
+  WireQos qos_;
   Counterparts counterparts_;
-  dds::Publisher& publisher_;
   dds::DataWriter* writer_ = nullptr;
 };
 
 }  // namespace
 
 struct RawParticipant::Impl {
-  std::function<void()> on_news;
+  DdsOptions options;
   DiscoveryListener listener;
-  dds::DomainParticipant* participant = nullptr;
-  dds::Publisher* publisher = nullptr;
-  dds::Subscriber* subscriber = nullptr;
-  std::map<std::string, dds::Topic*> topics;
+  Seat seat;
+  PauseWatch pause_watch;
 
-  explicit Impl(std::function<void()> told) : on_news(std::move(told)), listener(on_news) {}
-
-  dds::Topic* topic(const WireTopic& wanted) {
-    auto& entry = topics[wanted.name];
-    if (entry == nullptr) {
-      if (participant->find_type(wanted.type) == nullptr) {
-        dds::TypeSupport support(RawMessageType(wanted.type, wanted.keyed).new_dds_type());
-        support.register_type(participant);
-      }
-      entry = participant->create_topic(wanted.name, wanted.type, dds::TOPIC_QOS_DEFAULT);
-    }
-    if (entry == nullptr) throw std::runtime_error("DDS: cannot create topic " + wanted.name);
-    if (entry->get_type_name() != wanted.type) {
-      throw std::runtime_error("topic " + wanted.name + " carries " + entry->get_type_name() +
-                               " and " + wanted.type);
-    }
-    return entry;
-  }
+  Impl(DdsOptions wanted, const std::function<void()>& on_news)
+      : options(std::move(wanted)),
+        listener(on_news),
+        seat{on_news, std::make_unique<Membership>(options, listener), {}},
+        pause_watch(forgotten_after(options.settings), on_news) {}
 };
 
 RawParticipant::RawParticipant(const DdsOptions& options, std::function<void()> on_news)
-    : impl_(std::make_unique<Impl>(std::move(on_news))) {
-  impl_->participant = create_participant(options, &impl_->listener);
-  dds::PublisherQos publisher_qos = impl_->participant->get_default_publisher_qos();
-  dds::SubscriberQos subscriber_qos = impl_->participant->get_default_subscriber_qos();
-  if (!options.partition.empty()) {
-    publisher_qos.partition().push_back(options.partition.c_str());
-    subscriber_qos.partition().push_back(options.partition.c_str());
-  }
-  impl_->publisher = impl_->participant->create_publisher(publisher_qos);
-  impl_->subscriber = impl_->participant->create_subscriber(subscriber_qos);
-  if (impl_->publisher == nullptr || impl_->subscriber == nullptr) {
-    throw std::runtime_error("DDS: cannot create endpoints");
-  }
-}
-
-RawParticipant::~RawParticipant() {
-  if (impl_->participant == nullptr) return;
-  impl_->participant->set_listener(nullptr);
-  impl_->participant->delete_contained_entities();
-  dds::DomainParticipantFactory::get_instance()->delete_participant(impl_->participant);
-}
+    : impl_(std::make_unique<Impl>(options, on_news)) {}
+RawParticipant::~RawParticipant() = default;
 
 std::vector<DiscoveryEvent> RawParticipant::take_events() {
   return impl_->listener.take();
 }
 
+bool RawParticipant::mend() {
+  if (!impl_->pause_watch.take()) return false;
+  join_anew();
+  return true;
+}
+
+void RawParticipant::join_anew() {
+  for (DdsEndpoint* endpoint : impl_->seat.endpoints) endpoint->leave();
+  impl_->seat.membership.reset();
+  impl_->listener.lose_all();
+  impl_->seat.membership = std::make_unique<Membership>(impl_->options, impl_->listener);
+  for (DdsEndpoint* endpoint : impl_->seat.endpoints) endpoint->enter();
+}
+
 std::unique_ptr<RawReader> RawParticipant::create_reader(
     const WireTopic& topic, const WireQos& qos, std::function<void(RawSample&&)> on_sample) {
-  dds::DataReaderQos reader_qos = impl_->subscriber->get_default_datareader_qos();
-  apply(qos, reader_qos);
-  return std::make_unique<DdsRawReader>(*impl_->subscriber, impl_->topic(topic), reader_qos,
-                                        impl_->on_news, std::move(on_sample));
+  return std::make_unique<DdsRawReader>(impl_->seat, topic, qos, std::move(on_sample));
 }
 
 std::unique_ptr<RawWriter> RawParticipant::create_writer(const WireTopic& topic,
                                                          const WireQos& qos) {
-  dds::DataWriterQos writer_qos = impl_->publisher->get_default_datawriter_qos();
-  apply(qos, writer_qos);
-  return std::make_unique<DdsRawWriter>(*impl_->publisher, impl_->topic(topic), writer_qos,
-                                        impl_->on_news);
+  return std::make_unique<DdsRawWriter>(impl_->seat, topic, qos);
 }
 
 WireQos reader_for(const WireQos& offered) {

@@ -59,6 +59,12 @@ class RawParticipant {
   /// told of.
   [[nodiscard]] std::vector<DiscoveryEvent> take_events();
 
+  /// For the thread that uses the endpoints to call now and then: joins the domain anew where
+  /// others have forgotten this program (Transport::mend()). True when it did: all that was known
+  /// is told as lost and found again. What a latched writer has written is not told again.
+  bool mend();
+  void join_anew();
+
   /// `on_sample` is called on the thread that received the sample, one at a time: it must be quick.
   /// The reader's own history keeps nothing, so that no writer ever waits for it.
   [[nodiscard]] std::unique_ptr<RawReader> create_reader(

@@ -45,9 +45,7 @@ void run_until_stopped(Executor& executor, Node& node, Transport& transport) {
   while (!StopSignal::requested() && !node.wants_to_end()) {
     const Duration change = settings.change(SystemClock().now(), Executor::Wall::now());
     if (change != Duration{0}) node.handle_system_clock_set(change);
-    if (transport.mend()) {
-      node.log().warning("the discovery server was out of reach for too long: joined anew");
-    }
+    if (const auto why = transport.mend()) node.log().warning("{}", *why);
     executor.wait_and_run(std::chrono::milliseconds(500));
   }
 }

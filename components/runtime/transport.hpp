@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/time.hpp"
@@ -64,9 +65,9 @@ class Transport {
   /// Called from any thread when an endpoint found or lost a counterpart, for as long as the caller
   /// keeps what is returned. Set it before the first endpoint is made.
   [[nodiscard]] virtual std::shared_ptr<void> on_match(std::function<void()> callback) = 0;
-  /// For the thread that uses the endpoints to call now and then: mends what only it can. True when
-  /// all endpoints were made anew (their ids are new, too).
-  virtual bool mend() { return false; }
+  /// For the thread that uses the endpoints to call now and then: mends what only it can. When all
+  /// endpoints were made anew (their ids are new, too): why, for people.
+  virtual std::optional<std::string> mend() { return std::nullopt; }
 };
 
 }  // namespace coop::runtime

@@ -32,6 +32,7 @@ class WireOutput : public PlayOutput {
     }
   }
   bool write(const PlayMessage& message) override {
+    participant_.mend();
     return writers_[message.channel].writer->write(message.bytes);
   }
   bool is_matched(const std::vector<std::string>& topics) override {

@@ -28,6 +28,7 @@ TrafficTap::TrafficTap(const runtime::DdsOptions& options, std::function<void()>
       }) {}
 
 bool TrafficTap::handle_one() {
+  if (participant_.mend()) has_news_ = true;
   if (!has_news_.exchange(false)) return false;
   for (const DiscoveryEvent& event : participant_.take_events()) take(event);
   return true;

@@ -86,6 +86,7 @@ PartResult run_part(const Part& part) {
   ProgressLine line(part.title);
   while (!launcher.poll()) {
     executor.wait_and_run(kRound);
+    transport.mend();
     line.show(observer.progress());
     if (runtime::StopSignal::requested() && !result.stopped) {
       result.stopped = true;

@@ -101,6 +101,19 @@ TEST(ParticipantQos, remembers_who_is_silent_for_longer_where_a_server_knows_eve
   EXPECT_EQ(lease({"lease=7"}), 7);
 }
 
+TEST(ParticipantQos, takes_itself_for_forgotten_before_others_forget_it) {
+  using std::chrono::milliseconds;
+  const auto after = [](const std::vector<std::string>& dds) {
+    return forgotten_after(read_dds_settings(dds));
+  };
+  EXPECT_EQ(after({}), milliseconds(4000));
+  EXPECT_EQ(after({"discovery=server", "server=10.1.2.3:11811"}), milliseconds(17000));
+  EXPECT_EQ(after({"lease=1"}), milliseconds(500));
+  // A sign of life is never older than a second.
+  EXPECT_LT(qos_of({}).wire_protocol().builtin.discovery_config.leaseDuration_announcementperiod,
+            eprosima::fastrtps::Duration_t(1, 0));
+}
+
 TEST(ParticipantQos, is_introduced_by_udp_alone_where_there_are_keys_and_shared_memory) {
   const auto kept = qos_of({"security=on", "keys=/keys", "transport=shm"});
   EXPECT_EQ(kept.wire_protocol().builtin.metatrafficUnicastLocatorList.size(), 1U);

@@ -156,6 +156,43 @@ TEST_F(RawTopics, WrittenAsBytesReachTypedReadersWithTheirKeys) {
   EXPECT_THAT(sources, ::testing::UnorderedElementsAre("a new", "b only"));
 }
 
+TEST_F(RawTopics, WhoJoinsAnewIsToldOfEverythingAgainAndHearsAndIsHeard) {
+  const auto writer = typed_.create_writer("chatter", message_type<StringMessage>(), Qos::kEvent);
+  const auto hears = typed_.create_reader("echo", message_type<StringMessage>(), Qos::kEvent,
+                                          arrivals_.callback());
+  const auto found = find(DiscoveryEvent::Kind::kFound, "rt/chatter");
+  ASSERT_TRUE(found);
+  const auto reader = read(found->endpoint);
+  const auto tells = raw_.create_writer({"rt/echo", dds_type_name("std_msgs/String")}, {});
+  const auto matched = [&] {
+    return reader->hears(found->endpoint.id) && writer->matched_readers() == 1 &&
+           hears->hears(tells->id().text()) && tells->matched_readers() == 1;
+  };
+  ASSERT_TRUE(arrivals_.wait_until(matched));
+  EXPECT_FALSE(raw_.mend());
+  (void)raw_.take_events();
+  const std::string old_id = tells->id().text();
+  raw_.join_anew();
+  std::vector<DiscoveryEvent::Kind> told;
+  ASSERT_TRUE(arrivals_.wait_until([&] {
+    for (const DiscoveryEvent& event : raw_.take_events()) {
+      if (event.endpoint.id == found->endpoint.id) told.push_back(event.kind);
+    }
+    return told.size() >= 2;
+  }));
+  EXPECT_THAT(told,
+              ::testing::ElementsAre(DiscoveryEvent::Kind::kLost, DiscoveryEvent::Kind::kFound));
+  ASSERT_TRUE(arrivals_.wait_until(matched));
+  EXPECT_FALSE(hears->hears(old_id));
+  const StringMessage message = text("again");
+  std::vector<std::uint8_t> bytes;
+  message_type<StringMessage>().serialize(&message, bytes);
+  ASSERT_TRUE(writer->write(&message) && tells->write(bytes));
+  EXPECT_TRUE(arrivals_.wait_until([&] { return count() == 1; }));
+  Sample sample;
+  EXPECT_TRUE(arrivals_.wait_until([&] { return hears->take(sample); }));
+}
+
 TEST_F(RawTopics, BytesThatAreNoMessageAreRefused) {
   const auto writer = raw_.create_writer({"rt/chatter", dds_type_name("std_msgs/String")}, {});
   EXPECT_FALSE(writer->write({0, 1}));

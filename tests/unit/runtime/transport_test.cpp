@@ -180,5 +180,98 @@ TEST(DdsTransportTest, AnotherPartitionIsNotHeard) {
   EXPECT_EQ(deaf->matched_writers(), 0);
 }
 
+/// Two programs, of which one stood still for so long that it joins anew.
+class Rejoin : public ::testing::Test {
+ protected:
+  static DdsTransport join(const std::string& name, bool complete = false) {
+    return DdsTransport({.domain = test_domain(),
+                         .participant_name = name,
+                         .partition = "rejoin",
+                         .complete = complete});
+  }
+  bool write(Writer& writer, const std::string& text) {
+    StringMessage message;
+    message.data(text);
+    return writer.write(&message);
+  }
+  std::string next(Reader& reader) {
+    Sample sample;
+    if (!arrivals_.wait_until([&] { return reader.take(sample); })) return "nothing";
+    return static_cast<const StringMessage*>(sample.message.get())->data();
+  }
+  std::unique_ptr<Writer> writer(DdsTransport& transport, const std::string& topic, Qos qos) {
+    return transport.create_writer(topic, message_type<StringMessage>(), qos);
+  }
+  std::unique_ptr<Reader> reader(DdsTransport& transport, const std::string& topic, Qos qos) {
+    return transport.create_reader(topic, message_type<StringMessage>(), qos, arrivals_.callback());
+  }
+  bool matched(const Writer& from, const Reader& to) {
+    return arrivals_.wait_until([&] {
+      return from.reaches(to.id()) && to.hears(from.id()) && from.matched_readers() == 1;
+    });
+  }
+  Arrivals arrivals_;
+};
+
+TEST_F(Rejoin, SomebodyWhoWasStoppedIsHeardAndHearsAgainUnderNewIds) {
+  DdsTransport stopped = join("stopped");
+  DdsTransport other = join("other");
+  const auto to_other = writer(stopped, "out", Qos::kEvent);
+  const auto from_other = reader(stopped, "in", Qos::kEvent);
+  const auto hears = reader(other, "out", Qos::kEvent);
+  const auto tells = writer(other, "in", Qos::kEvent);
+  ASSERT_TRUE(matched(*to_other, *hears) && matched(*tells, *from_other));
+  ASSERT_TRUE(write(*to_other, "before"));
+  EXPECT_EQ(next(*hears), "before");
+  EXPECT_EQ(stopped.mend(), std::nullopt);
+  const std::string old_id = to_other->id();
+  stopped.note_pause(std::chrono::milliseconds(7250));
+  EXPECT_EQ(stopped.mend(), "stopped for 7.2 s: joined anew");
+  EXPECT_EQ(stopped.mend(), std::nullopt);
+  EXPECT_NE(to_other->id(), old_id);
+  EXPECT_EQ(to_other->sequence(), 0U);
+  ASSERT_TRUE(matched(*to_other, *hears) && matched(*tells, *from_other));
+  EXPECT_FALSE(hears->hears(old_id));
+  ASSERT_TRUE(write(*to_other, "after") && write(*tells, "answer"));
+  EXPECT_EQ(next(*hears), "after");
+  EXPECT_EQ(next(*from_other), "answer");
+}
+
+TEST_F(Rejoin, TheLastWordOfALatchedTopicIsToldToLateReadersAfterwards) {
+  DdsTransport stopped = join("stopped");
+  const auto state = writer(stopped, "state", Qos::kStateLatched);
+  ASSERT_TRUE(write(*state, "old") && write(*state, "new"));
+  stopped.note_pause(std::chrono::seconds(7));
+  ASSERT_TRUE(stopped.mend());
+  DdsTransport other = join("other");
+  EXPECT_EQ(next(*reader(other, "state", Qos::kStateLatched)), "new");
+}
+
+TEST_F(Rejoin, WhatHadArrivedBeforeIsNotLost) {
+  DdsTransport stopped = join("stopped");
+  DdsTransport other = join("other");
+  const auto from_other = reader(stopped, "in", Qos::kEvent);
+  const auto tells = writer(other, "in", Qos::kEvent);
+  ASSERT_TRUE(matched(*tells, *from_other));
+  for (const char* text : {"one", "two"}) ASSERT_TRUE(write(*tells, text));
+  ASSERT_TRUE(tells->wait_for_acknowledgments(std::chrono::seconds(20)));
+  stopped.note_pause(std::chrono::seconds(7));
+  ASSERT_TRUE(stopped.mend());
+  ASSERT_TRUE(matched(*tells, *from_other));
+  ASSERT_TRUE(write(*tells, "three"));
+  EXPECT_EQ(next(*from_other), "one");
+  EXPECT_EQ(next(*from_other), "two");
+  EXPECT_EQ(next(*from_other), "three");
+}
+
+TEST_F(Rejoin, InLockstepNobodyDoes) {
+  DdsTransport stopped = join("stopped", true);
+  const auto state = writer(stopped, "state", Qos::kStateLatched);
+  const std::string id = state->id();
+  stopped.note_pause(std::chrono::seconds(7));
+  EXPECT_EQ(stopped.mend(), std::nullopt);
+  EXPECT_EQ(state->id(), id);
+}
+
 }  // namespace
 }  // namespace coop::runtime
