@@ -18,6 +18,7 @@ struct FileOptions {
   Header header{"ros2", "coop"};
   Layout layout;
   Sync sync = Sync::kNever;
+  std::uint64_t reserve = 0;  ///< see create_file()
 };
 
 /// Whether an attachment or metadata is in each file of a series, or only in the one being written.

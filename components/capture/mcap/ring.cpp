@@ -49,18 +49,15 @@ class ChunkRing final : public ChunkTarget {
   }
   void add(const Metadata& metadata, Where) override { metadata_.push_back(metadata); }
 
+  /// All of it or no file.
   std::uint64_t write_snapshot(const std::filesystem::path& path) override {
-    FileWriter file(create_file(path), options_.header, options_.layout);
-    for (const auto& attachment : attachments_) file.add(attachment->attachment);
-    for (const Metadata& metadata : metadata_) file.add(metadata);
-    const Definitions::View all = definitions_.after(0, 0);
-    for (const Schema* schema : all.schemas) file.add(*schema);
-    for (const Channel* channel : all.channels) file.add(*channel);
-    for (const StoredChunk& chunk : chunks_) file.add(ReadyChunk{chunk.chunk, chunk.channels});
-    file.finish();
-    if (options_.sync != Sync::kNever) file.sync();
-    files_.push_back(path);
-    return file.statistics().message_count;
+    try {
+      return write_whole(path);
+    } catch (...) {
+      std::error_code ignored;
+      std::filesystem::remove(path, ignored);
+      throw;
+    }
   }
 
   void begin_anew(const std::filesystem::path&) override {
@@ -73,6 +70,20 @@ class ChunkRing final : public ChunkTarget {
   [[nodiscard]] std::uint64_t bytes() const override { return bytes_; }
 
  private:
+  std::uint64_t write_whole(const std::filesystem::path& path) {
+    FileWriter file(create_file(path, options_.reserve), options_.header, options_.layout);
+    for (const auto& attachment : attachments_) file.add(attachment->attachment);
+    for (const Metadata& metadata : metadata_) file.add(metadata);
+    const Definitions::View all = definitions_.after(0, 0);
+    for (const Schema* schema : all.schemas) file.add(*schema);
+    for (const Channel* channel : all.channels) file.add(*channel);
+    for (const StoredChunk& chunk : chunks_) file.add(ReadyChunk{chunk.chunk, chunk.channels});
+    file.finish();
+    if (options_.sync != Sync::kNever) file.sync();
+    files_.push_back(path);
+    return file.statistics().message_count;
+  }
+
   [[nodiscard]] bool is_too_old(const StoredChunk& chunk) const {
     return latest_ - chunk.chunk.message_end_time > ring_.duration;
   }

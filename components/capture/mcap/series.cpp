@@ -84,7 +84,7 @@ class FileSeries final : public ChunkTarget {
 
   void open() {
     const std::filesystem::path path = next_path();
-    auto sink = create_file(path);
+    auto sink = create_file(path, options_.reserve);
     files_.push_back(path);
     ++parts_;
     file_ = std::make_unique<FileWriter>(std::move(sink), options_.header, options_.layout);

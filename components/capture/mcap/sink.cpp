@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <limits.h>
+#include <sys/statvfs.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
@@ -14,8 +15,9 @@ namespace {
 
 class FileSink final : public Sink {
  public:
-  explicit FileSink(const std::filesystem::path& path)
+  FileSink(const std::filesystem::path& path, std::uint64_t reserve)
       : name_(path.string()),
+        reserve_(reserve),
         fd_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)) {
     if (fd_ < 0) fail(errno);
   }
@@ -29,6 +31,7 @@ class FileSink final : public Sink {
       if (part.empty()) continue;
       vectors_.push_back({const_cast<std::byte*>(part.data()), part.size()});
     }
+    leave_reserve();
     std::uint64_t written = 0;
     std::size_t first = 0;
     while (first < vectors_.size()) {
@@ -59,6 +62,17 @@ class FileSink final : public Sink {
   }
 
  private:
+  void leave_reserve() const {
+    if (reserve_ == 0) return;
+    std::uint64_t size = 0;
+    for (const iovec& vector : vectors_) size += vector.iov_len;
+    struct statvfs disk {};
+    if (::fstatvfs(fd_, &disk) != 0) return;
+    if (std::uint64_t{disk.f_bavail} * disk.f_frsize >= size + reserve_) return;
+    throw std::system_error(
+        ENOSPC, std::generic_category(),
+        name_ + ": " + std::to_string(reserve_ >> 20U) + " MB are kept free for others");
+  }
   /// Best effort: should it fail too, the file has a partial record at its end, which readers
   /// report and recovery cuts off.
   void cut_back() const {
@@ -70,6 +84,7 @@ class FileSink final : public Sink {
   }
 
   std::string name_;
+  std::uint64_t reserve_;
   int fd_;
   std::uint64_t size_ = 0;
   std::vector<iovec> vectors_;
@@ -89,8 +104,8 @@ class MemorySink final : public Sink {
 
 }  // namespace
 
-std::unique_ptr<Sink> create_file(const std::filesystem::path& path) {
-  return std::make_unique<FileSink>(path);
+std::unique_ptr<Sink> create_file(const std::filesystem::path& path, std::uint64_t reserve) {
+  return std::make_unique<FileSink>(path, reserve);
 }
 
 std::unique_ptr<Sink> write_to_memory(std::vector<std::byte>& bytes) {

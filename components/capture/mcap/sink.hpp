@@ -19,8 +19,10 @@ class Sink {
   virtual void sync() = 0;
 };
 
-/// Creates the file, or empties it. Throws std::system_error naming it.
-[[nodiscard]] std::unique_ptr<Sink> create_file(const std::filesystem::path& path);
+/// Creates the file, or empties it. Throws std::system_error naming it. `reserve`: bytes of the
+/// disk that are left to others: it counts as full (ENOSPC) before.
+[[nodiscard]] std::unique_ptr<Sink> create_file(const std::filesystem::path& path,
+                                                std::uint64_t reserve = 0);
 /// Appends to `bytes`, which has to outlive the sink.
 [[nodiscard]] std::unique_ptr<Sink> write_to_memory(std::vector<std::byte>& bytes);
 

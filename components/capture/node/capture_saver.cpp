@@ -1,5 +1,6 @@
 #include "capture/node/capture_saver.hpp"
 
+#include <algorithm>
 #include <ctime>
 
 #include "capture/traffic/kept_files.hpp"
@@ -18,6 +19,8 @@ namespace {
 
 /// In the names of captures that nobody asked for.
 constexpr const char* kOfFault = "-fault";
+/// Bytes of a capture besides the ring's chunks: attachments, indexes.
+constexpr std::uint64_t kRoomToSpare = 1U << 20U;
 
 }  // namespace
 
@@ -100,20 +103,30 @@ void CaptureSaver::work() {
   if (!save_ || save_->due > Wall::now()) return;
   try {
     if (!save_->messages.valid()) {
+      if (!make_room()) throw std::runtime_error("the disk is too full");
       recording_.note("coop.saved", {{"reason", save_->reason}, {"at", date_and_time()}});
       save_->messages = recording_.save(save_->path);
       return;
     }
     if (save_->messages.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
     answer(*save_, true, std::to_string(save_->messages.get()) + " messages: " + save_->reason);
-    if (config_.keep > 0) {
-      keep_newest(save_->path.parent_path(), node_.name() + "-", std::string(kOfFault),
-                  static_cast<std::size_t>(config_.keep));
-    }
   } catch (const std::exception& problem) {
     answer(*save_, false, problem.what());
   }
   save_.reset();
+}
+
+/// For the ring as it is now, at the cost of older captures that nobody asked for.
+bool CaptureSaver::make_room() const {
+  const std::uint64_t size = recording_.status().bytes + kRoomToSpare;
+  KeptLimits limits{.free_bytes = size + config_.disk_reserve_bytes()};
+  if (config_.keep > 0) limits.count = static_cast<std::size_t>(config_.keep) - 1;
+  if (config_.keep_size > 0) {
+    const std::uint64_t most = static_cast<std::uint64_t>(config_.keep_size) << 20U;
+    limits.bytes = most - std::min(most, size);
+  }
+  const std::filesystem::path folder = save_->path.parent_path();
+  return keep_newest(folder, node_.name() + "-", kOfFault, limits);
 }
 
 void CaptureSaver::finish() {

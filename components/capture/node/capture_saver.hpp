@@ -49,6 +49,7 @@ class CaptureSaver {
   void plan(const std::optional<std::string>& fault);
   void begin(const std::string& reason, const std::string& request_id,
              std::chrono::nanoseconds delay);
+  [[nodiscard]] bool make_room() const;
   void answer(const Save& save, bool success, const std::string& detail);
 
   runtime::Node& node_;

@@ -37,6 +37,17 @@ void RecordConfig::describe(config::Fields& fields) {
                "stay)",
        .min = 0,
        .max = 100000});
+  fields.integer("keep_size", keep_size,
+                 {.unit = "MB",
+                  .help = "of all captures of faults together, the oldest go; 0: no limit",
+                  .min = 0,
+                  .max = 1000000});
+  fields.integer("disk_reserve", disk_reserve,
+                 {.unit = "MB",
+                  .help = "of the disk that are left to others (journals, logs): older captures of "
+                          "faults go, or nothing is written",
+                  .min = 0,
+                  .max = 1000000});
   fields.number("split_size", split_size,
                 {.unit = "MB", .help = "size of a file; 0: no limit", .min = 0, .max = 1e6});
   fields.number("split_time", split_time,
@@ -71,6 +82,7 @@ RecordingOptions RecordConfig::recording(const std::filesystem::path& path) cons
   options.split_time = seconds(split_time);
   options.writer.compression =
       mcap::compression_named(compression == "none" ? std::string_view() : compression);
+  options.writer.file.reserve = disk_reserve_bytes();
   options.writer.chunk_age = static_cast<mcap::Nanoseconds>(seconds(chunk_age).count());
   options.writer.queue_bytes = static_cast<std::size_t>(queue_size) << 20U;
   return options;

@@ -19,6 +19,8 @@ struct RecordConfig {
   double save_delay = 1.0;  ///< s between what happened and the writing of the ring
   int ring_size = 512;      ///< MB
   int keep = 20;            ///< captures of faults; 0: all
+  int keep_size = 1000;     ///< MB, of all captures of faults; 0: no limit
+  int disk_reserve = 64;    ///< MB of the disk that are left to others: journals, logs
   double split_size = 0.0;  ///< MB; 0: one file
   double split_time = 0.0;  ///< s; 0: one file
   std::string compression = "zstd";
@@ -28,6 +30,9 @@ struct RecordConfig {
 
   void describe(config::Fields& fields);
   void validate() const;
+  [[nodiscard]] std::uint64_t disk_reserve_bytes() const {
+    return static_cast<std::uint64_t>(disk_reserve) << 20U;
+  }
   [[nodiscard]] TopicSelection selection() const { return {topics, exclude}; }
   [[nodiscard]] RecordingOptions recording(const std::filesystem::path& path) const;
 };

@@ -192,8 +192,10 @@ bool MissionRun::component_is_back(const Incident& incident, pid_t pid, Wall::ti
 
 bool MissionRun::all_well(Wall::time_point since) {
   ask();
-  return view_ && asked_ > since &&
-         std::ranges::all_of(view_->rows, [](const auto& row) { return row.state == "ready"; });
+  return view_ && asked_ > since && std::ranges::all_of(view_->rows, [](const auto& row) {
+           // The recorder tells of what it missed for ten seconds more.
+           return row.state == "ready" || (row.name == "record" && row.state == "degraded");
+         });
 }
 
 void MissionRun::happen(Fault fault) {

@@ -184,6 +184,27 @@ TEST(Writer, AFileThatCannotBeWrittenIsAnErrorAtTheStart) {
   EXPECT_THROW(Writer(Series{"/nowhere/a.mcap"}), std::system_error);
 }
 
+/// More than the disk has.
+std::uint64_t far_too_much(const std::filesystem::path& folder) {
+  return 2 * std::filesystem::space(folder).available;
+}
+
+TEST(Disk, KeepsItsReserveForOthers) {
+  const TemporaryFolder folder;
+  WriterOptions options;
+  options.file.reserve = far_too_much(folder.path());
+  EXPECT_THROW(Writer(Series{folder.path() / "a.mcap"}, options), std::system_error);
+}
+
+TEST(Disk, ThatIsTooFullForARingGetsNoPartOfIt) {
+  const TemporaryFolder folder;
+  WriterOptions options;
+  options.file.reserve = far_too_much(folder.path());
+  Writer writer(Ring{}, options);
+  EXPECT_THROW(writer.snapshot(folder.path() / "a.mcap").get(), std::system_error);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.mcap"));
+}
+
 /// Files of this process may grow no larger, as if the disk were full.
 class FileSizeLimit {
  public:

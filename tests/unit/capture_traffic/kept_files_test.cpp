@@ -38,17 +38,38 @@ TEST_F(KeptFiles, AreTheNewestOfTheirKindAndAllOthers) {
   make("record-2.mcap");
   make("other-1-fault.mcap");
   make("record-notes-fault.txt");
-  keep_newest(folder_.path(), "record-", "-fault", 2);
+  keep_newest(folder_.path(), "record-", "-fault", {.count = 2});
   EXPECT_THAT(names(), ::testing::UnorderedElementsAre(
                            "record-1-fault.mcap", "record-2-fault-2.mcap", "record-2-snapshot.mcap",
                            "record-2.mcap", "other-1-fault.mcap", "record-notes-fault.txt"));
 }
 
+TEST_F(KeptFiles, AreNoMoreBytesThanAllowed) {
+  for (const char* name : {"record-1-fault.mcap", "record-2-fault.mcap", "record-3-fault.mcap"}) {
+    make(name);
+  }
+  EXPECT_TRUE(keep_newest(folder_.path(), "record-", "-fault", {.bytes = 2}));
+  EXPECT_THAT(names(),
+              ::testing::UnorderedElementsAre("record-2-fault.mcap", "record-3-fault.mcap"));
+  EXPECT_TRUE(keep_newest(folder_.path(), "record-", "-fault", {.bytes = 0}));
+  EXPECT_THAT(names(), ::testing::IsEmpty());
+}
+
+TEST_F(KeptFiles, GoWhereTheDiskNeedsTheRoomUnlessThatDoesNotHelp) {
+  make("record-1-fault.mcap");
+  std::filesystem::resize_file(folder_.path() / "record-1-fault.mcap", 1000);
+  const auto free = std::filesystem::space(folder_.path()).available;
+  EXPECT_FALSE(keep_newest(folder_.path(), "record-", "-fault", {.free_bytes = 2 * free}));
+  EXPECT_THAT(names(), ::testing::ElementsAre("record-1-fault.mcap")) << "it would be lost in vain";
+  EXPECT_TRUE(keep_newest(folder_.path(), "record-", "-fault", {.free_bytes = free / 2}));
+  EXPECT_THAT(names(), ::testing::ElementsAre("record-1-fault.mcap")) << "there is room";
+}
+
 TEST_F(KeptFiles, AreAllWhereThereAreFewAndNoneWhereThereIsNoFolder) {
   make("record-1-fault.mcap");
-  keep_newest(folder_.path(), "record-", "-fault", 2);
+  keep_newest(folder_.path(), "record-", "-fault", {.count = 2});
   EXPECT_THAT(names(), ::testing::ElementsAre("record-1-fault.mcap"));
-  keep_newest(folder_.path() / "none", "record-", "-fault", 2);
+  keep_newest(folder_.path() / "none", "record-", "-fault", {.count = 2});
 }
 
 }  // namespace
