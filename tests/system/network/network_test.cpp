@@ -1,5 +1,6 @@
 // What a running system offers to a network, and what it makes of garbage.
 //   COOP_FUZZ_SECONDS=600 COOP_FUZZ_SEED=7 network_test --gtest_filter='*garbage*'
+//   COOP_FORGERY=gap_ahead COOP_FUZZ_PROTECTION=all network_test --gtest_filter='*forged*'
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,17 +10,18 @@
 #include <cstdlib>
 #include <map>
 #include <optional>
+#include <thread>
 
-#include "coop_msgs/msg/ComponentStatus.h"
 #include "core/atomic_file.hpp"
 #include "sensor_msgs/msg/LaserScan.h"
+#include "system/network/forgery.hpp"
 #include "system/network/garbage.hpp"
 #include "system/network/open_sockets.hpp"
+#include "system/network/watcher.hpp"
 #include "system/support/listener.hpp"
 #include "system/support/running_system.hpp"
 #include "system/support/small_system.hpp"
 #include "system/support/test_domain.hpp"
-#include "tf2_msgs/msg/TFMessage.h"
 
 namespace coop::test {
 namespace {
@@ -42,11 +44,24 @@ int setting(const char* name, int otherwise) {
 
 class NetworkTest : public ::testing::Test {
  protected:
-  void start(const std::string& more = "") {
-    std::string text = more + "components:\n";
+  /// `protection`: of `coop keys make`; empty: without keys.
+  void start(const std::string& protection = "") {
+    std::string text = "components:\n";
     for (const std::string& name : kParts) text += small_component(folder_.path(), name);
+    if (!protection.empty()) {
+      keys_ = folder_.path() / "keys";
+      text += "dds: {security: on, keys: \"" + keys_.string() + "\"}\n";
+    }
     const auto file = folder_.path() / "small.yaml";
     write_file_atomically(file, text);
+    if (!protection.empty()) {
+      Program make("keys",
+                   {"make", file.string(), "--protection", protection, "--observer", kWatcher,
+                    "--domain", std::to_string(test_domain())},
+                   folder_.path() / "keys.out");
+      const auto status = make.wait(kPatience);
+      ASSERT_TRUE(status && status->code == 0) << make.output();
+    }
     system_.emplace(file);
     ASSERT_TRUE(system_->wait_until_ready(kPatience)) << system_->launcher().output();
   }
@@ -65,6 +80,7 @@ class NetworkTest : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
+  std::filesystem::path keys_;
   std::optional<RunningSystem> system_;
 };
 
@@ -176,53 +192,6 @@ TEST_F(NetworkTest, systems_of_two_robots_on_one_domain_do_not_mix) {
   EXPECT_THAT(piggy.launcher().output(), Not(HasSubstr("stopp")));
 }
 
-/// Who watches a system under fire, without being a target.
-class Watcher {
- public:
-  explicit Watcher(int domain) : listener_(domain, "watcher") {
-    listener_.node().subscribe<coop_msgs::msg::ComponentStatus>(
-        "component_status", runtime::Qos::kHeartbeat,
-        [this](const coop_msgs::msg::ComponentStatus& status) {
-          longest_ = std::max(longest_, silence(status.name()));
-          last_[status.name()] = Wall::now();
-        });
-    listener_.node().subscribe<sensor_msgs::msg::LaserScan>("scan", runtime::Qos::kSensorStream,
-                                                            [this](const auto&) { ++scans_; });
-    listener_.node().subscribe<tf2_msgs::msg::TFMessage>("tf", runtime::Qos::kEvent,
-                                                         [this](const auto&) { ++locations_; });
-  }
-  void look() { listener_.look(); }
-  /// Longest time between two heartbeats of any, in seconds.
-  [[nodiscard]] double longest_silence() {
-    for (const std::string& name : kParts) longest_ = std::max(longest_, silence(name));
-    return longest_;
-  }
-  /// Scans from the laser's part, and locations, which are told for scans heard.
-  bool hears_data() {
-    listener_.look();
-    scans_ = locations_ = 0;
-    return wait_until(
-        [this] {
-          listener_.look();
-          return scans_ >= 20 && locations_ >= 20;
-        },
-        kPatience);
-  }
-
- private:
-  double silence(const std::string& name) {
-    const auto found = last_.find(name);
-    return found == last_.end()
-               ? 0.0
-               : std::chrono::duration<double>(Wall::now() - found->second).count();
-  }
-  Listener listener_;
-  std::map<std::string, Wall::time_point> last_;
-  double longest_ = 0.0;
-  int scans_ = 0;
-  int locations_ = 0;
-};
-
 TEST_F(NetworkTest, the_packets_that_end_bare_fast_dds_end_no_component) {
   start();
   const auto before = system_->pids();
@@ -236,21 +205,23 @@ TEST_F(NetworkTest, the_packets_that_end_bare_fast_dds_end_no_component) {
 
 class GarbageTest : public NetworkTest {
  protected:
-  /// Throws garbage for COOP_FUZZ_SECONDS. Answers how many hearers it made deaf; each is replaced
-  /// by a new one.
-  int throw_garbage(Garbage::Sender sender) {
-    start();
-    const auto ports = rtps_ports();  // before the watcher has any
-    EXPECT_GE(ports.size(), 2 * kParts.size());
-    watcher_.emplace(system_->domain());
+  /// Brings up a system and somebody who watches it; what they say to each other meanwhile.
+  void watch(const std::string& protection) {
+    start(protection);
+    ports_ = rtps_ports();  // before the watcher has any
+    EXPECT_GE(ports_.size(), 2 * kParts.size());
+    std::thread capture([this] { genuine_ = capture_rtps(ports_, milliseconds(3000)); });
+    watcher_.emplace(system_->domain(), keys_);
     EXPECT_TRUE(watcher_->hears_data());
-    std::vector<Packet> genuine = capture_rtps(ports, milliseconds(2000));
-    EXPECT_FALSE(genuine.empty());
-    const auto before = system_->pids();
-    const int seed = setting("COOP_FUZZ_SEED", 1);
-    std::printf("garbage: %zu genuine packets, %zu ports, seed %d\n", genuine.size(), ports.size(),
-                seed);
-    Garbage garbage(std::move(genuine), static_cast<std::uint64_t>(seed), sender);
+    capture.join();
+    EXPECT_FALSE(genuine_.empty());
+    watcher_->look();
+    watcher_->begin(kParts);
+    before_ = system_->pids();
+  }
+  /// Throws what `next` makes for COOP_FUZZ_SECONDS. Answers how many hearers it made deaf; each is
+  /// replaced by a new one.
+  int throw_all(const std::function<Packet()>& next) {
     const Thrower thrower;
     const auto end =
         Wall::now() + std::chrono::seconds(setting("COOP_FUZZ_SECONDS", kSuiteSeconds));
@@ -258,23 +229,61 @@ class GarbageTest : public NetworkTest {
     int deaf = 0;
     while (Wall::now() < end) {
       for (int i = 0; i < 20; ++i, ++thrown) {
-        thrower.throw_at(ports[thrown % ports.size()], garbage.next());
+        thrower.throw_at(ports_[thrown % ports_.size()], next());
       }
       watcher_->look();
       if (watcher_->longest_silence() > kTooLong) {
         ++deaf;
-        watcher_.emplace(system_->domain());
+        std::printf("garbage: deaf:%s\n", watcher_->silences().c_str());
+        watcher_.emplace(system_->domain(), keys_);
+        watcher_->begin(kParts);
       }
       wait_until([] { return false; }, milliseconds(5));
     }
-    std::printf("garbage: %zu packets thrown, %d hearers made deaf\n", thrown, deaf);
-    EXPECT_EQ(system_->pids(), before) << system_->launcher().output();
+    std::printf("garbage: %zu packets thrown, %d hearers made deaf, silences (s):%s\n", thrown,
+                deaf, watcher_->silences().c_str());
+    EXPECT_EQ(system_->pids(), before_) << system_->launcher().output();
     return deaf;
   }
+  int throw_garbage(Garbage::Sender sender) {
+    watch(text_setting("COOP_FUZZ_PROTECTION"));
+    const int seed = setting("COOP_FUZZ_SEED", 1);
+    std::printf("garbage: %zu genuine packets, %zu ports, seed %d\n", genuine_.size(),
+                ports_.size(), seed);
+    Garbage garbage(genuine_, static_cast<std::uint64_t>(seed), sender);
+    return throw_all([&garbage] { return garbage.next(); });
+  }
 
-  static constexpr double kTooLong = 5.0;  // s without a component's heartbeat
+  /// What is made to do harm, of all kinds or of COOP_FORGERY; somebody who comes later must hear
+  /// all, too.
+  void throw_forged() {
+    const std::string only = text_setting("COOP_FORGERY");
+    std::vector<Packet> forged;
+    for (const NamedForgery& forgery : forgeries()) {
+      if (!only.empty() && only != forgery.name) continue;
+      const auto packets = forge(forgery.kind, genuine_);
+      std::printf("forged: %s: %zu packets\n", forgery.name.c_str(), packets.size());
+      forged.insert(forged.end(), packets.begin(), packets.end());
+    }
+    ASSERT_FALSE(forged.empty());
+    std::mt19937 random(static_cast<unsigned>(setting("COOP_FUZZ_SEED", 1)));
+    EXPECT_EQ(throw_all([&] { return forged[random() % forged.size()]; }), 0);
+    EXPECT_TRUE(watcher_->hears_data(milliseconds(20000))) << system_->launcher().output();
+    Watcher newcomer(system_->domain(), keys_);
+    EXPECT_TRUE(newcomer.hears_data(milliseconds(20000))) << "somebody who comes later";
+  }
+
+  static std::string text_setting(const char* name) {
+    const char* text = std::getenv(name);
+    return text == nullptr ? "" : text;
+  }
+
+  static constexpr double kTooLong = 5.0;  // s without something that is told all the time
   /// Long enough for somebody to be deaf that long.
   static constexpr int kSuiteSeconds = 8;
+  std::vector<std::uint16_t> ports_;
+  std::vector<Packet> genuine_;
+  std::vector<pid_t> before_;
   std::optional<Watcher> watcher_;
 };
 
@@ -284,10 +293,22 @@ TEST_F(GarbageTest, garbage_at_its_ports_neither_kills_nor_silences_a_component)
   EXPECT_TRUE(watcher_->hears_data()) << system_->launcher().output();
 }
 
-// Who signs with a component's name can make others deaf to it (docs/security.md), but not end it.
-TEST_F(GarbageTest, garbage_in_the_name_of_a_component_kills_none) {
+TEST_F(GarbageTest, garbage_in_the_name_of_a_component_neither_kills_nor_silences_one) {
   if (geteuid() != 0) GTEST_SKIP() << "not run: capturing packets needs root";
-  (void)throw_garbage(Garbage::Sender::kForged);
+  EXPECT_EQ(throw_garbage(Garbage::Sender::kForged), 0);
+  EXPECT_TRUE(watcher_->hears_data()) << system_->launcher().output();
+}
+
+TEST_F(GarbageTest, what_is_forged_to_make_others_deaf_does_not) {
+  if (geteuid() != 0) GTEST_SKIP() << "not run: capturing packets needs root";
+  watch(text_setting("COOP_FUZZ_PROTECTION"));
+  throw_forged();
+}
+
+TEST_F(GarbageTest, what_is_forged_where_all_is_encrypted_makes_nobody_deaf) {
+  if (geteuid() != 0) GTEST_SKIP() << "not run: capturing packets needs root";
+  watch("all");
+  throw_forged();
 }
 
 }  // namespace

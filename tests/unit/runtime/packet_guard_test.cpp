@@ -228,6 +228,45 @@ TEST(PacketGuard, AnnouncementsAndHandshakesIntroduceAndNothingElseDoes) {
   EXPECT_FALSE(introduces(message()));
 }
 
+/// A sub-message between two endpoints.
+Bytes between(std::uint8_t kind, std::array<std::uint8_t, 4> reader,
+              std::array<std::uint8_t, 4> writer) {
+  Bytes bytes = submessage(kind, 28, 28);
+  const std::ptrdiff_t at = kind == kData ? 8 : 4;
+  std::ranges::copy(reader, bytes.begin() + at);
+  std::ranges::copy(writer, bytes.begin() + at + 4);
+  return bytes;
+}
+
+TEST(PacketGuard, WithKeysWhatIsAlwaysEncryptedIsNotTakenInTheClear) {
+  EXPECT_TRUE(is_protected(message() + data_of({0, 1, 0, 0xc2}), false));
+  EXPECT_TRUE(is_protected(message() + data_of({0, 2, 1, 0xc3}), false));
+  EXPECT_TRUE(is_protected(message() + between(kHeartbeat, {0, 0, 2, 4}, {0, 0, 2, 3}), false));
+  EXPECT_TRUE(is_protected(message() + between(kHeartbeat, {}, {0, 0, 3, 0xc2}), false));
+  EXPECT_FALSE(is_protected(message() + data_of({0, 0, 3, 0xc2}), false));
+  EXPECT_FALSE(is_protected(message() + data_of({0, 0, 4, 0xc2}), false));
+  EXPECT_FALSE(is_protected(message() + data_of({0, 2, 0, 0xc2}), false));
+  EXPECT_FALSE(is_protected(message() + data_of({0xff, 0, 3, 0xc2}), false));
+  EXPECT_FALSE(
+      is_protected(message() + between(kAcknack, {0xff, 2, 2, 0xc4}, {0xff, 2, 2, 0xc3}), false));
+}
+
+TEST(PacketGuard, WhereMessagesAreSignedOnlyIntroductionsAreTakenInTheClear) {
+  constexpr std::uint8_t kSecurePrefix = 0x31;
+  constexpr std::uint8_t kSecurePostfix = 0x32;
+  constexpr std::uint8_t kSecureMessage = 0x33;
+  EXPECT_TRUE(is_protected(message() + data_of({0, 1, 0, 0xc2}), true));
+  EXPECT_TRUE(is_protected(message() + submessage(kSecureMessage, 24, 24), true));
+  EXPECT_TRUE(is_protected(message() + submessage(kInfoTimestamp, 8, 8), true));
+  // Keys are exchanged before messages can be signed.
+  EXPECT_TRUE(is_protected(message() + submessage(kSecurePrefix, 24, 24) +
+                               submessage(0x30, 24, 24) + submessage(kSecurePostfix, 24, 24),
+                           true));
+  EXPECT_FALSE(is_protected(message() + between(kHeartbeat, {0, 0, 2, 4}, {0, 0, 2, 3}), true));
+  EXPECT_FALSE(is_protected(message() + data_of({0, 0, 2, 3}), true));
+  EXPECT_FALSE(is_protected(message() + between(kAcknack, {0, 1, 0, 0xc7}, {0, 1, 0, 0xc2}), true));
+}
+
 using eprosima::fastdds::rtps::ChainingTransportDescriptor;
 using eprosima::fastdds::rtps::TransportReceiverInterface;
 using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
