@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "capture/mcap/definitions.hpp"
@@ -29,6 +30,16 @@ struct StoredAttachment {
   std::vector<std::byte> data;
 };
 
+struct StoredMessage {
+  StoredMessage(const Message& said, Bytes bytes)
+      : data(bytes.begin(), bytes.end()), message(said) {
+    message.data = data;
+  }
+  StoredMessage(StoredMessage&&) = default;
+  std::vector<std::byte> data;
+  Message message;  // a view of `data`
+};
+
 /// Where a writer's chunks go. One thread calls; what throws (std::system_error) left the target as
 /// it was, or in a state where all further calls throw the same.
 class ChunkTarget {
@@ -45,6 +56,11 @@ class ChunkTarget {
   /// The files written or begun, and how long they are together.
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
   [[nodiscard]] virtual std::uint64_t bytes() const = 0;
+  /// What is not as it should be although nothing is lost; empty: nothing.
+  [[nodiscard]] virtual const std::string& warning() const {
+    static const std::string none;
+    return none;
+  }
 
  protected:
   std::vector<std::filesystem::path> files_;
@@ -65,6 +81,13 @@ struct Series {
 struct Ring {
   Nanoseconds duration = 0;   // of log time
   std::size_t max_bytes = 0;  // as compressed
+  /// A folder to be made for them, so that they outlive the process; gone when the ring is closed
+  /// (ring_folder.hpp). Where it fails they are in the memory of the process, and warning() says
+  /// so. Empty: always there.
+  std::filesystem::path folder{};
+  std::filesystem::path origin{};  // the capture that is to be made of it then; absolute
+  /// What was said last before that time and still holds, dated to it. Of the writer's thread.
+  std::function<std::vector<StoredMessage>(Nanoseconds begin)> said_before{};
 };
 [[nodiscard]] std::unique_ptr<ChunkTarget> make_ring(const Ring& ring, const FileOptions& options,
                                                      const Definitions& definitions);

@@ -1,53 +1,65 @@
 #include <algorithm>
 #include <deque>
+#include <system_error>
 
-#include "capture/mcap/chunk_target.hpp"
+#include "capture/mcap/ring_folder.hpp"
 
 namespace coop::mcap {
 namespace {
 
-/// A chunk with memory of its own.
+/// A chunk in the folder of the ring, or with memory of its own.
 struct StoredChunk {
-  explicit StoredChunk(const ReadyChunk& ready)
-      : chunk(ready.chunk),
-        records(ready.chunk.records.begin(), ready.chunk.records.end()),
-        channels(ready.channels.begin(), ready.channels.end()) {
-    chunk.records = records;
-  }
-  StoredChunk(const StoredChunk&) = delete;
-  StoredChunk& operator=(const StoredChunk&) = delete;
+  std::size_t size = 0;
+  Nanoseconds end_time = 0;
+  RingFolder::Place place;
+  RingFolder::ReadChunk in_memory;
 
-  [[nodiscard]] std::size_t size() const {
-    std::size_t size = records.size();
-    for (const ChannelEntries& channel : channels) {
-      size += channel.entries.size() * sizeof(MessageIndexEntry);
-    }
-    return size;
-  }
-
-  Chunk chunk;
-  std::vector<std::byte> records;
-  std::vector<ChannelEntries> channels;
+  [[nodiscard]] bool is_in_folder() const { return place.segment != nullptr; }
 };
+
+StoredChunk copy_of(const ReadyChunk& ready) {
+  StoredChunk stored;
+  RingFolder::ReadChunk& copy = stored.in_memory;
+  copy.chunk = ready.chunk;
+  copy.bytes.assign(ready.chunk.records.begin(), ready.chunk.records.end());
+  copy.chunk.records = copy.bytes;
+  copy.channels.assign(ready.channels.begin(), ready.channels.end());
+  stored.size = copy.bytes.size();
+  for (const ChannelEntries& channel : copy.channels) {
+    stored.size += channel.entries.size() * sizeof(MessageIndexEntry);
+  }
+  return stored;
+}
 
 class ChunkRing final : public ChunkTarget {
  public:
   ChunkRing(Ring ring, FileOptions options, const Definitions& definitions)
-      : ring_(ring), options_(std::move(options)), definitions_(definitions) {}
+      : ring_(std::move(ring)), options_(std::move(options)), definitions_(definitions) {
+    if (ring_.folder.empty()) return;
+    try {
+      folder_ = std::make_unique<RingFolder>(ring_, options_, definitions_);
+    } catch (const std::system_error& error) {
+      note(error);
+    }
+  }
 
   void add(const ReadyChunk& chunk) override {
-    chunks_.emplace_back(chunk);
-    bytes_ += chunks_.back().size();
     latest_ = std::max(latest_, chunk.chunk.message_end_time);
+    chunks_.push_back(stored(chunk));
+    bytes_ += chunks_.back().size;
     while (chunks_.size() > 1 && (bytes_ > ring_.max_bytes || is_too_old(chunks_.front()))) {
-      bytes_ -= chunks_.front().size();
+      bytes_ -= chunks_.front().size;
       chunks_.pop_front();
     }
   }
   void add(std::shared_ptr<const StoredAttachment> attachment, Where) override {
+    in_folder([&] { folder_->add(attachment->attachment); });
     attachments_.push_back(std::move(attachment));
   }
-  void add(const Metadata& metadata, Where) override { metadata_.push_back(metadata); }
+  void add(const Metadata& metadata, Where) override {
+    in_folder([&] { folder_->add(metadata); });
+    metadata_.push_back(metadata);
+  }
 
   /// All of it or no file.
   std::uint64_t write_snapshot(const std::filesystem::path& path) override {
@@ -62,12 +74,17 @@ class ChunkRing final : public ChunkTarget {
 
   void begin_anew(const std::filesystem::path&) override {
     chunks_.clear();
+    if (folder_) folder_->end_segment();
     bytes_ = 0;
-    latest_ = 0;
+    latest_ = retry_ = 0;
   }
 
-  void finish() override {}
+  void finish() override {
+    chunks_.clear();
+    folder_.reset();
+  }
   [[nodiscard]] std::uint64_t bytes() const override { return bytes_; }
+  [[nodiscard]] const std::string& warning() const override { return warning_; }
 
  private:
   std::uint64_t write_whole(const std::filesystem::path& path) {
@@ -77,7 +94,14 @@ class ChunkRing final : public ChunkTarget {
     const Definitions::View all = definitions_.after(0, 0);
     for (const Schema* schema : all.schemas) file.add(*schema);
     for (const Channel* channel : all.channels) file.add(*channel);
-    for (const StoredChunk& chunk : chunks_) file.add(ReadyChunk{chunk.chunk, chunk.channels});
+    for (const StoredChunk& chunk : chunks_) {
+      if (chunk.is_in_folder()) {
+        const RingFolder::ReadChunk read = RingFolder::read(chunk.place);
+        file.add(ReadyChunk{read.chunk, read.channels});
+      } else {
+        file.add(ReadyChunk{chunk.in_memory.chunk, chunk.in_memory.channels});
+      }
+    }
     file.finish();
     if (options_.sync != Sync::kNever) file.sync();
     files_.push_back(path);
@@ -85,15 +109,49 @@ class ChunkRing final : public ChunkTarget {
   }
 
   [[nodiscard]] bool is_too_old(const StoredChunk& chunk) const {
-    return latest_ - chunk.chunk.message_end_time > ring_.duration;
+    return latest_ - chunk.end_time > ring_.duration;
+  }
+
+  /// In the folder, but where it fails: then in memory, until it is tried again.
+  StoredChunk stored(const ReadyChunk& chunk) {
+    StoredChunk result;
+    const bool tries = folder_ && latest_ >= retry_;
+    if (tries && in_folder([&] { result.place = folder_->add(chunk); })) {
+      result.size = static_cast<std::size_t>(result.place.length);
+      warning_.clear();
+    } else {
+      result = copy_of(chunk);
+    }
+    result.end_time = chunk.chunk.message_end_time;
+    return result;
+  }
+
+  template <class Function>
+  bool in_folder(const Function& function) {
+    if (!folder_) return false;
+    try {
+      function();
+      return true;
+    } catch (const std::system_error& error) {
+      note(error);
+      folder_->end_segment();
+      retry_ = latest_ + ring_.duration / RingFolder::kSegments;
+      return false;
+    }
+  }
+  void note(const std::system_error& error) {
+    warning_ = std::string("the ring dies with this process: ") + error.what();
   }
 
   Ring ring_;
   FileOptions options_;
   const Definitions& definitions_;
+  std::unique_ptr<RingFolder> folder_;
   std::deque<StoredChunk> chunks_;
   std::size_t bytes_ = 0;
   Nanoseconds latest_ = 0;
+  Nanoseconds retry_ = 0;  ///< the folder failed: not before then again
+  std::string warning_;
   std::vector<std::shared_ptr<const StoredAttachment>> attachments_;
   std::vector<Metadata> metadata_;
 };

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "capture/mcap/file_error.hpp"
+#include "capture/mcap/ring_rescue.hpp"
 #include "capture/mcap/tail.hpp"
 
 namespace coop::mcap {
@@ -81,6 +82,8 @@ class MemorySource final : public Source {
 }  // namespace
 
 std::shared_ptr<const Source> open_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return open_ring(path);
   const auto tail = read_tail(path);
   return with_tail(open_plain_file(path), tail);
 }

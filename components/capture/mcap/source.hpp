@@ -21,8 +21,8 @@ class Source {
   [[nodiscard]] virtual const std::string& name() const = 0;
 };
 
-/// A capture, with the chunks of its tail where its writer was killed (tail.hpp). Throws
-/// std::system_error naming the file.
+/// A capture, with the chunks of its tail where its writer was killed (tail.hpp); a folder is a
+/// ring (ring_rescue.hpp). Throws std::system_error naming the file.
 [[nodiscard]] std::shared_ptr<const Source> open_file(const std::filesystem::path& path);
 /// Any file, as it is.
 [[nodiscard]] std::shared_ptr<const Source> open_plain_file(const std::filesystem::path& path);

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <bit>
 
+#include "capture/mcap/ring_folder.hpp"
+
 namespace coop::mcap {
 namespace {
 
-std::unique_ptr<Tail> make_tail(const Series& series, bool wanted) {
+std::unique_ptr<Tail> make_tail(const std::filesystem::path& capture, bool wanted) {
   if (!wanted) return nullptr;
   try {
-    return std::make_unique<Tail>(Tail::path_of(series.path));
+    return std::make_unique<Tail>(Tail::path_of(capture));
   } catch (const std::system_error&) {
     return nullptr;  // without it a kill costs what is in memory
   }
@@ -25,8 +27,8 @@ std::uint64_t WriterStatus::lost() const {
 
 Writer::Writer(const Series& series, const WriterOptions& options)
     : options_(options),
-      tail_(make_tail(series, options.tail)),
       target_(make_series(series, options.file, definitions_)),
+      tail_(make_tail(series.path, options.tail)),
       compressor_(options.compression, options.level) {
   start();
 }
@@ -34,6 +36,8 @@ Writer::Writer(const Series& series, const WriterOptions& options)
 Writer::Writer(const Ring& ring, const WriterOptions& options)
     : options_(options),
       target_(make_ring(ring, options.file, definitions_)),
+      tail_(make_tail(ring.folder / RingFolder::kTailOf, options.tail && !ring.folder.empty())),
+      is_ring_(true),
       compressor_(options.compression, options.level) {
   start();
 }
@@ -44,6 +48,7 @@ Writer::~Writer() {
 
 void Writer::start() {
   status_.files = target_->files();
+  status_.warning = target_->warning();
   thread_ = std::thread([this] { run(); });
 }
 
@@ -178,7 +183,7 @@ void Writer::begin_anew(const std::filesystem::path& path) {
   has_new_definitions_ = true;
   post([this, path] {
     target_->begin_anew(path);
-    if (tail_) tail_->rename(Tail::path_of(path));
+    if (tail_ && !is_ring_) tail_->rename(Tail::path_of(path));
   });
 }
 
@@ -256,6 +261,7 @@ void Writer::run() {
     lock.lock();
     status_.bytes = target_->bytes();
     status_.files = target_->files();
+    status_.warning = target_->warning();
   }
   lock.unlock();
   try {

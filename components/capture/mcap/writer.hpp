@@ -21,7 +21,7 @@ struct WriterOptions {
   Nanoseconds chunk_age = 1'000'000'000;              // ... or is older than this, in log time
   std::size_t queue_bytes = std::size_t{256} << 20U;  // memory for chunks on their way to the disk
   WhenFull when_full = WhenFull::kLose;
-  /// What is in memory survives the death of the process, in CAPTURE.tail (files only).
+  /// What is in memory survives the death of the process, in CAPTURE.tail, or in the ring's folder.
   bool tail = false;
 };
 
@@ -30,7 +30,8 @@ struct WriterStatus {
   std::map<std::uint16_t, std::uint64_t> lost_messages;  // by channel
   std::uint64_t bytes = 0;                               // of all files so far, or of the ring
   std::vector<std::filesystem::path> files;
-  std::string error;  // the first failure of the disk; empty: none
+  std::string error;    // the first failure of the disk; empty: none
+  std::string warning;  // of a ring that would not survive the process now; empty: none
 
   [[nodiscard]] std::uint64_t lost() const;
 };
@@ -109,11 +110,12 @@ class Writer {
   std::atomic<bool> has_new_definitions_{false};
   std::size_t schemas_told_ = 0;  // to the builders: a tail explains itself
   std::size_t channels_told_ = 0;
-  ByteBuffer untold_;  // those that come with the next message
-  std::unique_ptr<Tail> tail_;
+  ByteBuffer untold_;                    // those that come with the next message
   std::unique_ptr<ChunkTarget> target_;  // of the thread
-  Compressor compressor_;                // of the thread
-  ByteBuffer compressed_;                // of the thread
+  std::unique_ptr<Tail> tail_;
+  bool is_ring_ = false;
+  Compressor compressor_;  // of the thread
+  ByteBuffer compressed_;  // of the thread
 
   mutable std::mutex mutex_;
   std::condition_variable has_job_;

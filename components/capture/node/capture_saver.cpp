@@ -1,6 +1,5 @@
 #include "capture/node/capture_saver.hpp"
 
-#include <algorithm>
 #include <ctime>
 
 #include "capture/traffic/kept_files.hpp"
@@ -119,14 +118,8 @@ void CaptureSaver::work() {
 /// For the ring as it is now, at the cost of older captures that nobody asked for.
 bool CaptureSaver::make_room() const {
   const std::uint64_t size = recording_.status().bytes + kRoomToSpare;
-  KeptLimits limits{.free_bytes = size + config_.disk_reserve_bytes()};
-  if (config_.keep > 0) limits.count = static_cast<std::size_t>(config_.keep) - 1;
-  if (config_.keep_size > 0) {
-    const std::uint64_t most = static_cast<std::uint64_t>(config_.keep_size) << 20U;
-    limits.bytes = most - std::min(most, size);
-  }
   const std::filesystem::path folder = save_->path.parent_path();
-  return keep_newest(folder, node_.name() + "-", kOfFault, limits);
+  return keep_newest(folder, node_.name() + "-", kOfFault, config_.limits_before(size));
 }
 
 void CaptureSaver::finish() {

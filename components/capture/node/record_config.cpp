@@ -1,5 +1,6 @@
 #include "capture/node/record_config.hpp"
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
@@ -31,6 +32,9 @@ void RecordConfig::describe(config::Fields& fields) {
                  .max = 600});
   fields.integer("ring_size", ring_size,
                  {.unit = "MB", .help = "memory for the ring, compressed", .min = 1, .max = 65536});
+  fields.text("ring_folder", ring_folder,
+              {.help = "folder, in memory, where the ring outlives a recorder that is killed, for "
+                       "the next one to write it to disk; empty: it does not"});
   fields.integer(
       "keep", keep,
       {.help = "captures of faults in the folder, the oldest go; 0: all (those asked for "
@@ -73,11 +77,22 @@ void RecordConfig::validate() const {
   }
 }
 
+KeptLimits RecordConfig::limits_before(std::uint64_t size) const {
+  KeptLimits limits{.free_bytes = size + disk_reserve_bytes()};
+  if (keep > 0) limits.count = static_cast<std::size_t>(keep) - 1;
+  if (keep_size > 0) {
+    const std::uint64_t most = static_cast<std::uint64_t>(keep_size) << 20U;
+    limits.bytes = most - std::min(most, size);
+  }
+  return limits;
+}
+
 RecordingOptions RecordConfig::recording(const std::filesystem::path& path) const {
   RecordingOptions options;
   options.path = path;
   options.last = seconds(last);
   options.ring_bytes = static_cast<std::size_t>(ring_size) << 20U;
+  options.rings = ring_folder;
   options.split_bytes = static_cast<std::uint64_t>(split_size * 1e6);
   options.split_time = seconds(split_time);
   options.writer.compression =

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/traffic/kept_files.hpp"
 #include "capture/traffic/recording.hpp"
 #include "capture/traffic/topic_names.hpp"
 #include "core/config/fields.hpp"
@@ -18,6 +19,8 @@ struct RecordConfig {
   bool save_on_emergency_stop = true;
   double save_delay = 1.0;  ///< s between what happened and the writing of the ring
   int ring_size = 512;      ///< MB
+  /// Where a ring outlives its recorder, to be written by the next one; empty: it does not.
+  std::string ring_folder = "/dev/shm";
   int keep = 20;            ///< captures of faults; 0: all
   int keep_size = 1000;     ///< MB, of all captures of faults; 0: no limit
   int disk_reserve = 64;    ///< MB of the disk that are left to others: journals, logs
@@ -33,6 +36,8 @@ struct RecordConfig {
   [[nodiscard]] std::uint64_t disk_reserve_bytes() const {
     return static_cast<std::uint64_t>(disk_reserve) << 20U;
   }
+  /// For captures that nobody asked for, before one of that size is written.
+  [[nodiscard]] KeptLimits limits_before(std::uint64_t size) const;
   [[nodiscard]] TopicSelection selection() const { return {topics, exclude}; }
   [[nodiscard]] RecordingOptions recording(const std::filesystem::path& path) const;
 };

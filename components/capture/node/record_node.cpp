@@ -55,7 +55,8 @@ RecordNode::RecordNode(runtime::Node& node, const Config& config)
       config_(config),
       folder_(folder_of(node, config)),
       recording_(config.recording(new_path(""))),
-      saver_(node, recording_, config, [this](const std::string& kind) { return new_path(kind); }) {
+      saver_(node, recording_, config, [this](const std::string& kind) { return new_path(kind); }),
+      ring_saver_(node, config) {
   describe_run();
   runtime::Executor& executor = node.executor();
   tap_ = std::make_unique<TrafficTap>(
@@ -218,8 +219,10 @@ void RecordNode::tick() {
     node_.log().warning("lost so far: {}", losses_);
     told_losses_ = losses_;
   }
-  if (const std::string error = recording_.status().error; !error.empty()) {
-    node_.set_degraded(error);
+  const auto status = recording_.status();
+  ring_saver_.tell(status.warning);
+  if (!status.error.empty()) {
+    node_.set_degraded(status.error);
   } else if (!losses_.empty() && wall - lost_at_ < kLossIsNews) {
     node_.set_degraded("lost: " + losses_);
   } else {
@@ -232,6 +235,7 @@ void RecordNode::stop() {
   tap_.reset();
   handle_news();
   saver_.finish();
+  ring_saver_.finish();
   recording_.close();
   const auto status = recording_.status();
   const auto report = recording_.report();

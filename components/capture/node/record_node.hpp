@@ -7,6 +7,7 @@
 
 #include "capture/node/capture_saver.hpp"
 #include "capture/node/record_config.hpp"
+#include "capture/node/ring_saver.hpp"
 #include "capture/node/traffic_tap.hpp"
 #include "capture/traffic/recording.hpp"
 #include "runtime/node.hpp"
@@ -60,6 +61,7 @@ class RecordNode {
   std::filesystem::path folder_;
   Recording recording_;
   CaptureSaver saver_;
+  RingSaver ring_saver_;
   std::atomic<std::int64_t> sim_now_{0};  ///< ns; 0 before the first clock message
   std::vector<std::unique_ptr<Heard>> heard_;
   std::mutex mutex_;

@@ -1,7 +1,10 @@
 #include "capture/traffic/recording.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 
+#include "capture/mcap/ring_folder.hpp"
 #include "capture/schema/definitions.hpp"
 #include "capture/traffic/topic_names.hpp"
 
@@ -12,26 +15,51 @@ mcap::Nanoseconds to_mcap(Time time) {
   return static_cast<mcap::Nanoseconds>(std::max<std::int64_t>(0, to_nanoseconds(time)));
 }
 
-std::unique_ptr<mcap::Writer> make_writer(RecordingOptions options) {
-  if (options.last > Duration{0}) {
-    return std::make_unique<mcap::Writer>(
-        mcap::Ring{.duration = static_cast<mcap::Nanoseconds>(options.last.count()),
-                   .max_bytes = options.ring_bytes},
-        options.writer);
-  }
-  std::filesystem::create_directories(options.path.parent_path());
-  options.writer.tail = true;
-  return std::make_unique<mcap::Writer>(
-      mcap::Series{.path = options.path,
-                   .split_bytes = options.split_bytes,
-                   .split_duration = static_cast<mcap::Nanoseconds>(options.split_time.count())},
-      options.writer);
-}
-
 }  // namespace
 
-Recording::Recording(const RecordingOptions& options)
-    : options_(options), writer_(make_writer(options)) {}
+Recording::Recording(const RecordingOptions& options) : options_(options), writer_(make_writer()) {}
+
+std::unique_ptr<mcap::Writer> Recording::make_writer() const {
+  mcap::WriterOptions writer = options_.writer;
+  writer.tail = true;
+  if (is_ring()) return std::make_unique<mcap::Writer>(ring(), writer);
+  std::filesystem::create_directories(options_.path.parent_path());
+  return std::make_unique<mcap::Writer>(
+      mcap::Series{.path = options_.path,
+                   .split_bytes = options_.split_bytes,
+                   .split_duration = static_cast<mcap::Nanoseconds>(options_.split_time.count())},
+      writer);
+}
+
+mcap::Ring Recording::ring() const {
+  mcap::Ring ring{.duration = static_cast<mcap::Nanoseconds>(options_.last.count()),
+                  .max_bytes = options_.ring_bytes};
+  if (options_.rings.empty()) return ring;
+  const std::string stem = options_.path.stem().string();
+  ring.folder =
+      options_.rings / (mcap::RingFolder::kPrefix + stem + "-" + std::to_string(::getpid()));
+  ring.origin = std::filesystem::absolute(options_.path).replace_filename(stem + "-killed.mcap");
+  ring.said_before = [this](mcap::Nanoseconds begin) {
+    return said_before(Time(Duration(static_cast<std::int64_t>(begin))));
+  };
+  return ring;
+}
+
+std::vector<mcap::StoredMessage> Recording::said_before(Time begin) const {
+  std::vector<mcap::StoredMessage> said;
+  const std::scoped_lock lock(mutex_);
+  for (const auto& [channel, account] : accounts_) {
+    if (!account.last_word || account.last_word->log_time >= begin) continue;
+    const LastWord& word = *account.last_word;
+    said.emplace_back(mcap::Message{.channel_id = channel,
+                                    .sequence = static_cast<std::uint32_t>(word.sequence),
+                                    .log_time = to_mcap(begin),
+                                    .publish_time = to_mcap(word.publish_time),
+                                    .data = {}},
+                      std::as_bytes(std::span(word.bytes)));
+  }
+  return said;
+}
 
 std::uint16_t Recording::add_channel(const WriterInfo& writer) {
   const std::string type = shown_type(writer.dds_type);

@@ -20,6 +20,9 @@ namespace coop::capture {
 struct RecordingOptions {
   std::filesystem::path path;  ///< of the file; with a ring: not used before save()
   Duration last{0};            ///< ring: that much is kept, in memory; 0: everything, into files
+  /// Where rings lie that outlive their recorder (mcap/ring_folder.hpp): memory of the system.
+  /// Empty: the ring dies with it. What is left of one becomes NAME-killed.mcap beside `path`.
+  std::filesystem::path rings;
   std::size_t ring_bytes = std::size_t{512} << 20U;
   std::uint64_t split_bytes = 0;  ///< 0: one file
   Duration split_time{0};         ///< of log time; 0: one file
@@ -102,13 +105,17 @@ class Recording {
   /// Last words from before that time, as if they were said at it.
   void repeat_last_words(Time begin);
 
+  [[nodiscard]] std::vector<mcap::StoredMessage> said_before(Time begin) const;
+  [[nodiscard]] mcap::Ring ring() const;
+  [[nodiscard]] std::unique_ptr<mcap::Writer> make_writer() const;
+
   RecordingOptions options_;
-  std::unique_ptr<mcap::Writer> writer_;
   mutable std::mutex mutex_;
   std::map<std::uint16_t, Account> accounts_;
   Time begin_{};   ///< log time of the first message, since it began anew
   Time newest_{};  ///< likewise of the last
   bool closed_ = false;
+  std::unique_ptr<mcap::Writer> writer_;  ///< last: its thread asks for last words
 };
 
 /// "3 missed and 1 refused of /scan, 2 missed of /tf", or empty where nothing is missing.

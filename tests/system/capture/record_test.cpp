@@ -175,5 +175,34 @@ TEST(Record, TheRingIsWrittenWhenAComponentDiesAndWhenAskedFor) {
   EXPECT_THAT(counts(fault.summary()), Contains(Key("/scan of lidar_driver")));
 }
 
+TEST(Record, KilledItsRingBecomesACaptureOfTheTimeBefore) {
+  const TemporaryFolder rings;
+  std::string text = kSmallSystem;
+  text.replace(text.find("chunk_age: 0.5"), 14,
+               "chunk_age: 0.5, last: 60, ring_folder: " + rings.path().string());
+  const LaunchText launch(text);
+  RunningSystem system(launch.path());
+  SimulatedTime time(system);
+  ASSERT_TRUE(system.wait_for_state("lidar_driver", "ready")) << system.launcher().output();
+  ASSERT_TRUE(time.pass(2.0));
+  const auto run = system.run_folder();
+  EXPECT_THAT(captures_of(run), IsEmpty());
+  system.kill_component("record");
+  ASSERT_TRUE(wait_until([&] { return captures_of(run).size() == 1U; }));
+  const auto file = captures_of(run)[0];
+  EXPECT_THAT(file.stem().string(), ::testing::EndsWith("-killed"));
+  const mcap::Reader before(file);
+  EXPECT_TRUE(before.summary().complete);
+  const auto found = counts(before.summary());
+  EXPECT_GE(found.at("/clock of simulator"), 200U);
+  EXPECT_GE(found.at("/map of amcl"), 1U);
+  EXPECT_GE(found.at("/tf_static of simulator"), 1U);
+  EXPECT_GT(before.summary().attachments.size(), 3U);
+  expect_no_holes(file);
+  system.launcher().signal(SIGINT);
+  ASSERT_TRUE(system.launcher().wait());
+  EXPECT_TRUE(std::filesystem::is_empty(rings.path())) << "a ring that is closed leaves nothing";
+}
+
 }  // namespace
 }  // namespace coop::test

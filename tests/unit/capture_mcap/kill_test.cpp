@@ -13,6 +13,7 @@
 #include <random>
 
 #include "capture/mcap/recover.hpp"
+#include "capture/mcap/ring_rescue.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/capture_mcap/capture.hpp"
 
@@ -69,10 +70,11 @@ struct Plan {
   }
 };
 
-[[noreturn]] void capture_until_killed(const Plan& plan, const std::filesystem::path& path,
-                                       Progress& progress) {
+/// Where it captures to: files, or a ring.
+template <class Target>
+[[noreturn]] void capture_until_killed(const Plan& plan, const Target& target, Progress& progress) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  Writer writer(Series{path}, plan.options);
+  Writer writer(target, plan.options);
   const std::uint16_t channel = writer.add_channel(writer.add_schema("a", "ros2msg", "b"), "/a");
   std::string text(plan.large_size, ' ');
   std::mt19937 random(1);
@@ -87,23 +89,33 @@ struct Plan {
   }
 }
 
-/// Runs the capture and kills it. False where the file was not even there yet.
-bool capture_and_kill(const Plan& plan, const std::filesystem::path& path, Progress& progress) {
+template <class Target>
+void capture_and_kill(const Plan& plan, const Target& target, Progress& progress) {
   const pid_t child = ::fork();
-  if (child == 0) capture_until_killed(plan, path, progress);
+  if (child == 0) capture_until_killed(plan, target, progress);
   if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
   ::usleep(plan.lifetime);  // the random moment
   ::kill(child, SIGKILL);
   int status = 0;
   EXPECT_EQ(::waitpid(child, &status, 0), child);
   EXPECT_TRUE(WIFSIGNALED(status)) << "the child ended by itself";
+}
+
+/// Runs the capture and kills it. False where the file was not even there yet.
+bool capture_and_kill_file(const Plan& plan, const std::filesystem::path& path,
+                           Progress& progress) {
+  capture_and_kill(plan, Series{path}, progress);
   return std::filesystem::exists(path) &&
          std::filesystem::file_size(path) > kMagic.size() + kRecordPrefix;
 }
 
-TEST(Kill, ACaptureKilledAtAnyMomentHasEveryMessageThatWasTaken) {
+int kills_wanted() {
   const char* wanted = std::getenv("COOP_MCAP_KILLS");
-  const int kills = wanted == nullptr ? 20 : std::atoi(wanted);
+  return wanted == nullptr ? 20 : std::atoi(wanted);
+}
+
+TEST(Kill, ACaptureKilledAtAnyMomentHasEveryMessageThatWasTaken) {
+  const int kills = kills_wanted();
   const coop::test::TemporaryFolder folder;
   int begun = 0;
   int cut = 0;
@@ -113,7 +125,7 @@ TEST(Kill, ACaptureKilledAtAnyMomentHasEveryMessageThatWasTaken) {
     const Plan plan(static_cast<unsigned>(i));
     const auto path = folder.path() / (std::to_string(i) + ".mcap");
     SharedProgress progress;
-    if (!capture_and_kill(plan, path, *progress)) continue;
+    if (!capture_and_kill_file(plan, path, *progress)) continue;
     ++begun;
     std::vector<std::byte> bytes;
     const RecoverReport report = recover(open_file(path), write_to_memory(bytes));
@@ -135,6 +147,46 @@ TEST(Kill, ACaptureKilledAtAnyMomentHasEveryMessageThatWasTaken) {
       "written, %llu of them missing\n",
       kills, begun, cut, static_cast<unsigned long long>(taken),
       static_cast<unsigned long long>(missing));
+}
+
+TEST(Kill, ARingKilledAtAnyMomentBecomesACaptureOfTheLastSeconds) {
+  const int kills = kills_wanted();
+  const coop::test::TemporaryFolder folder;
+  int begun = 0;
+  std::uint64_t taken = 0;
+  for (int i = 0; i < kills; ++i) {
+    const Plan plan(static_cast<unsigned>(i));
+    const auto name = std::to_string(i);
+    const Ring ring{.duration = ~Nanoseconds{0},
+                    .max_bytes = 20 * plan.options.chunk_bytes,
+                    .folder = folder.path() / ("coop-ring-" + name),
+                    .origin = folder.path() / "captures" / (name + ".mcap")};
+    SharedProgress progress;
+    capture_and_kill(plan, ring, *progress);
+    std::uint64_t written = 0;
+    for (DeadRing& dead : DeadRing::all_in(folder.path()))
+      written = dead.write({"killed", {}}).messages;
+    EXPECT_FALSE(std::filesystem::exists(ring.folder));
+    if (written == 0) {
+      EXPECT_EQ(progress->taken, 0U) << "seed " << i;
+      continue;
+    }
+    ++begun;
+    Reader reader(ring.origin);
+    ASSERT_TRUE(reader.summary().complete);
+    MessageCursor cursor = reader.messages();
+    std::optional<std::uint64_t> next;
+    while (const auto read = cursor.next()) {
+      if (!next) next = read->message.sequence;
+      ASSERT_EQ(read->message.sequence, (*next)++) << "a gap";
+    }
+    EXPECT_GE(*next, progress->taken) << "seed " << i;
+    taken += progress->taken;
+    std::filesystem::remove(ring.origin);
+  }
+  EXPECT_GT(begun, 0);
+  std::printf("%d rings killed, %d had begun; each was there to the last of its messages (%llu)\n",
+              kills, begun, static_cast<unsigned long long>(taken));
 }
 
 }  // namespace

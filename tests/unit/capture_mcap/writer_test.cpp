@@ -2,11 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/resource.h>
 
 #include "support/temporary_folder.hpp"
 #include "unit/capture_mcap/capture.hpp"
+#include "unit/capture_mcap/file_size_limit.hpp"
 
 namespace coop::mcap {
 namespace {
@@ -205,32 +204,12 @@ TEST(Disk, ThatIsTooFullForARingGetsNoPartOfIt) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.mcap"));
 }
 
-/// Files of this process may grow no larger, as if the disk were full.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : handler_(::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    ::signal(SIGXFSZ, handler_);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  sighandler_t handler_;
-  rlimit before_{};
-};
-
 TEST(Writer, WhenTheDiskIsFullTheFileEndsWithItsLastWholeChunk) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "a.mcap";
   WriterStatus status;
   {
-    const FileSizeLimit limit(20'000);
+    const test::FileSizeLimit limit(20'000);
     WriterOptions options;
     options.compression = Compression::kNone;
     options.chunk_bytes = 3'000;

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <thread>
 
 #include "capture/mcap/reader.hpp"
 #include "capture/traffic/play_list.hpp"
@@ -235,6 +238,46 @@ TEST_F(Recordings, ARingForgetsAnotherTime) {
   EXPECT_EQ(recording.save(path()).get(), 5U);
   PlayList saved(path(), {});
   EXPECT_EQ(rest_of(saved), "bbbbb");
+}
+
+TEST_F(Recordings, ARingThatOutlivesItsRecorderBeginsWithTheLastWordsFromBeforeIt) {
+  RecordingOptions ring = options();
+  ring.last = std::chrono::seconds(10);
+  ring.rings = folder_.path();
+  ring.writer.chunk_bytes = 1024;
+  Recording recording(ring);
+  WriterInfo info = writer("/map", "amcl");
+  info.qos.transient_local = true;
+  recording.write(recording.add_channel(info), 1, at(1), at(1), letter('m'));
+  const auto chatter = recording.add_channel(writer("/chatter", "talker"));
+  for (std::uint64_t i = 2; i <= 100; ++i) {
+    recording.write(chatter, i, at(static_cast<double>(i)), at(0), letter('a'));
+  }
+  const auto folder = folder_.path() / ("coop-ring-x-" + std::to_string(::getpid()));
+  // Its thread is behind at first, and files go while they are read.
+  std::optional<mcap::Reader> killed;
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (std::chrono::steady_clock::now() < deadline) {
+    try {
+      killed.emplace(folder);
+      const auto& statistics = *killed->summary().statistics;
+      if (statistics.message_end_time == 100'000'000'000U &&
+          statistics.message_start_time > 85'000'000'000U) {
+        break;
+      }
+    } catch (const std::exception&) {
+      std::this_thread::yield();
+    }
+  }
+  ASSERT_TRUE(killed);
+  auto messages = killed->messages({.order = mcap::Order::kFile});
+  const auto first = messages.next();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->channel->topic, "/map");
+  EXPECT_GT(first->message.log_time, 85'000'000'000U) << "not when it was said";
+  EXPECT_EQ(first->message.publish_time, 1'000'000'000U);
+  recording.close();
+  EXPECT_FALSE(std::filesystem::exists(folder)) << "nothing is left of one that is closed";
 }
 
 }  // namespace
