@@ -288,7 +288,11 @@ void MissionRun::finish() {
   if (!status || status->code != 0 || status->signal != 0)
     complain("the launcher did not end well");
   if (std::ranges::any_of(pids, test::is_alive)) complain("something outlives the system");
-  if (!wrong_.empty() && !options_.out.empty()) {
+  namespace TrueEgg = coop_msgs::msg::SimEgg_Constants;
+  const bool left_some = std::ranges::any_of(observer_.truth().eggs(), [](const auto& egg) {
+    return egg.state() != TrueEgg::COLLECTED;
+  });
+  if ((!wrong_.empty() || left_some) && !options_.out.empty()) {
     std::error_code ignored;
     std::filesystem::copy(system_.folder(), options_.out / fmt::format("mission-{}", number_),
                           std::filesystem::copy_options::recursive, ignored);
