@@ -184,7 +184,8 @@ std::string security_override(const Plan& plan) {
            std::string out = "    environment:\n      COOP_DDS: \"security=true keys=" + keys +
                              " ${COOP_DDS:-}\"\n    volumes:\n";
            for (const std::string& name : {std::string("public"), component.name}) {
-             out += "      - \"${COOP_KEYS:-./keys}/" + name + ":" + keys + "/" + name + ":ro\"\n";
+             out.append("      - \"${COOP_KEYS:-./keys}/").append(name).append(":").append(keys);
+             out.append("/").append(name).append(":ro\"\n");
            }
            return out;
          });

@@ -157,9 +157,10 @@ std::filesystem::path find_launch_file(const std::filesystem::path& wanted, cons
 }
 
 Launch load_launch(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  const Launch plain = read(path, {});
+  Launch plain = read(path, {});
   if (overrides.empty()) return plain;
   std::vector<std::string> full;
+  full.reserve(overrides.size());
   for (const std::string& assignment : overrides) full.push_back(in_full(plain, assignment));
   return read(path, full);
 }

@@ -29,7 +29,7 @@ std::string LogTail::read_rest() {
 }
 
 std::string LogTail::last_lines(std::size_t count) {
-  const std::string text = read_rest();
+  std::string text = read_rest();
   if (count == 0 || text.empty()) return text;
   std::size_t begin = text.size() - (text.back() == '\n' ? 1 : 0);
   for (; count > 0 && begin != std::string::npos && begin > 0; --count) {

@@ -47,11 +47,11 @@ Result<pid_t> ProcessTable::start(const PlannedComponent& component) {
   // A larger pipe spares a talkative component waits; the kernel may refuse, then it has the usual
   // size.
   fcntl(output.get(), F_SETPIPE_SZ, kPipeSize);
-  const Result<pid_t> pid = start_process({.executable = component.executable,
-                                           .arguments = component.arguments,
-                                           .environment = component.environment,
-                                           .folder = component.folder,
-                                           .output = output.get()});
+  Result<pid_t> pid = start_process({.executable = component.executable,
+                                     .arguments = component.arguments,
+                                     .environment = component.environment,
+                                     .folder = component.folder,
+                                     .output = output.get()});
   if (!pid) {
     entry.output.reset();
     return pid;

@@ -154,6 +154,7 @@ std::vector<Estimate> estimate(const SweepConfig& config, const Figure& figure,
     if (run.result.success) by_point[run.run.point].push_back(&run);
   }
   std::vector<Estimate> estimates;
+  estimates.reserve(by_point.size());
   for (const auto& point : by_point) estimates.push_back(estimate_point(figure, point));
   return estimates;
 }

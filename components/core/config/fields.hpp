@@ -105,6 +105,7 @@ class Fields {
   void mapping(std::string_view name, std::vector<Named<Struct>>& values,
                const Struct& prototype = {}) {
     std::vector<std::string> names;
+    names.reserve(values.size());
     for (const auto& element : values) names.push_back(element.name);
     if (!begin_mapping(name, names)) return;
     for (const std::string& key : names) {
