@@ -21,6 +21,16 @@ constexpr std::size_t kMostKnown = 512;
 /// Announcements come at least every few seconds.
 constexpr std::chrono::seconds kForgotten{60};
 constexpr std::chrono::seconds kAddressesAge{1};
+/// Tell of participants, their writers and their readers. Fast DDS does not ask whether these are
+/// the teller's own.
+constexpr std::array<wire::EntityId, 3> kTellers{
+    wire::EntityId{0, 1, 0, 0xc2}, wire::EntityId{0, 0, 3, 0xc2}, wire::EntityId{0, 0, 4, 0xc2}};
+
+bool tells_of_somebody(const wire::Submessage& submessage) {
+  if (submessage.kind != wire::kData && submessage.kind != wire::kDataFrag) return false;
+  const auto writer = submessage.writer();
+  return writer && std::ranges::find(kTellers, *writer) != kTellers.end();
+}
 
 bool is_loopback(std::uint32_t address) {
   return address >> 24U == 127;
@@ -120,10 +130,15 @@ bool PacketSources::may_be_genuine(wire::Bytes packet, PacketSource from) {
   for (auto rest = packet.subspan(wire::kHeader); !rest.empty();) {
     const auto next = wire::take_submessage(rest);
     if (!next) return false;
-    if (next->kind != wire::kInfoSource || next->body.size() < 8 + name.size()) continue;
-    wire::Prefix other;
-    std::ranges::copy(next->body.subspan(8, other.size()), other.begin());
-    if (!may_be(other, from)) return false;
+    if (next->kind == wire::kInfoSource && next->body.size() >= 8 + name.size()) {
+      wire::Prefix other;
+      std::ranges::copy(next->body.subspan(8, other.size()), other.begin());
+      if (!may_be(other, from)) return false;
+    }
+    if (!tells_of_somebody(*next)) continue;
+    for (const wire::Prefix& other : wire::told_of(*next)) {
+      if (other != name && !may_be(other, from)) return false;
+    }
   }
   // Ports that are not told from one of them say nothing: an old packet, or changed on its way.
   auto ports = told_ports(packet);

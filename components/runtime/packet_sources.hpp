@@ -33,7 +33,7 @@ class PacketSources {
   using Wall = std::chrono::steady_clock;
 
   /// Whether a packet whose sub-messages lie within it may be from whom it says, and from those in
-  /// whose name it speaks on; learns from announcements that may.
+  /// whose name it speaks on or of whom it tells; learns from announcements that may.
   [[nodiscard]] bool may_be_genuine(wire::Bytes packet, PacketSource from);
   /// The participant of this program itself.
   void add_own(const wire::Prefix& name, const std::vector<std::uint16_t>& ports);

@@ -17,6 +17,11 @@ constexpr std::size_t kShortestData = 24;
 constexpr std::size_t kToInlineQos = 16;
 constexpr std::size_t kToInlineQosOfFrag = 28;
 constexpr std::uint16_t kSentinel = 1;
+/// Key hash, participant, endpoint: each begins with the name of a participant.
+constexpr std::array<std::uint16_t, 3> kNaming{0x0070, 0x0050, 0x005a};
+constexpr std::size_t kKeyHash = 16;
+/// How a payload says that it is a list of parameters, and in which order their bytes are.
+constexpr std::uint8_t kLittleEndianList = 3;
 constexpr std::size_t kMostBits = 256;  // of a set of numbers
 
 /// Far more than a writer counts to: a thousand a second for 34 years.
@@ -27,19 +32,36 @@ constexpr std::uint32_t kLargestSample = 1U << 30U;
 /// Fast DDS keeps a number of four bytes in the place of each fragment that is missing.
 constexpr std::uint16_t kSmallestFragment = 4;
 
+/// Shows `each` parameter of a list that begins at `at` (what it is, its value); answers the place
+/// behind the list, nothing where it does not fit.
+template <class Each>
+std::optional<std::size_t> walk_parameters(const Submessage& in, std::size_t at, const Each& each) {
+  for (;;) {
+    if (in.body.size() - at < 4) return std::nullopt;
+    const std::uint16_t parameter = in.u16(at);
+    const std::size_t size = parameter == kSentinel ? std::size_t{0} : in.u16(at + 2);
+    at += 4;
+    const std::size_t padded = (size + 3) & ~std::size_t{3};
+    if (padded > in.body.size() - at) return std::nullopt;
+    if (parameter == kSentinel) return at;
+    each(parameter, in.body.subspan(at, size));
+    at += padded;
+  }
+}
+
 /// Where the payload begins; nothing where what comes before does not fit.
-std::optional<std::size_t> payload_place(const Submessage& data, std::size_t shortest) {
+template <class Each>
+std::optional<std::size_t> payload_place(const Submessage& data, std::size_t shortest,
+                                         const Each& each) {
   const std::size_t told = data.u16(2);
-  std::size_t at = 4 + told;
+  const std::size_t at = 4 + told;
   if (told < shortest || at > data.body.size()) return std::nullopt;
   if (!data.has(kInlineQos)) return at;
-  for (bool is_end = false; !is_end;) {
-    if (data.body.size() - at < 4) return std::nullopt;
-    is_end = data.u16(at) == kSentinel;
-    at += 4 + (is_end ? std::size_t{0} : (data.u16(at + 2) + std::size_t{3}) & ~std::size_t{3});
-    if (at > data.body.size()) return std::nullopt;
-  }
-  return at;
+  return walk_parameters(data, at, each);
+}
+
+std::optional<std::size_t> payload_place(const Submessage& data, std::size_t shortest) {
+  return payload_place(data, shortest, [](std::uint16_t, Bytes) {});
 }
 
 bool is_sequence(std::int64_t number) {
@@ -169,6 +191,33 @@ std::optional<Submessage> take_submessage(Bytes& rest) {
   next.is_last = length == rest.size();
   rest = rest.subspan(std::min((length + 3U) & ~std::size_t{3}, rest.size()));
   return next;
+}
+
+std::vector<Prefix> told_of(const Submessage& data) {
+  std::vector<Prefix> names;
+  const auto add = [&names](Bytes value) {
+    if (value.size() < Prefix().size()) return;
+    std::ranges::copy(value.first(Prefix().size()), names.emplace_back().begin());
+  };
+  const auto add_named = [&add](std::uint16_t parameter, Bytes value) {
+    if (std::ranges::find(kNaming, parameter) != kNaming.end()) add(value);
+  };
+  const bool is_fragment = data.kind == kDataFrag;
+  if (data.body.size() < kShortestData) return names;
+  const auto place =
+      payload_place(data, is_fragment ? kToInlineQosOfFrag : kToInlineQos, add_named);
+  if (!place) return names;
+  const Bytes payload = data.body.subspan(*place);
+  if (payload.size() <= kKeyHash) {
+    add(payload);  // as it is: where a key is all there is
+  } else {
+    const Submessage list{
+        .kind = data.kind,
+        .flags = payload[1] == kLittleEndianList ? std::uint8_t{1} : std::uint8_t{0},
+        .body = payload.subspan(4)};
+    (void)walk_parameters(list, 0, add_named);
+  }
+  return names;
 }
 
 bool is_sound(const Submessage& submessage) {

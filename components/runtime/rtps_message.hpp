@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 /// What of an RTPS message (OMG DDSI-RTPS 2.5, 8.3 and 9.4) the guard in front of Fast DDS reads.
 namespace coop::runtime::wire {
@@ -55,6 +56,9 @@ struct Submessage {
 [[nodiscard]] Prefix sender(Bytes packet);
 /// Takes the next off what is left of a packet; nothing where it reaches beyond.
 [[nodiscard]] std::optional<Submessage> take_submessage(Bytes& rest);
+
+/// Of which participants a sub-message of discovery (DATA, DATA_FRAG) tells.
+[[nodiscard]] std::vector<Prefix> told_of(const Submessage& data);
 
 /// Whether what the fields of a sub-message say of its own contents is so, and its sequence numbers
 /// are such as counting from one can reach. Fast DDS 2.9.1 believes them all.

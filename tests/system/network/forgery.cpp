@@ -13,6 +13,7 @@ namespace {
 namespace wire = runtime::wire;
 
 constexpr std::uint32_t kAhead = 1'000'000;
+constexpr std::ptrdiff_t kNamePlace = 8;  // place of the sender's, in the header
 constexpr std::uint32_t kLate = 0xfffffff0;
 constexpr wire::EntityId kAnnouncer{0, 1, 0, 0xc2};
 constexpr wire::EntityId kAnnouncement{0, 1, 0, 0xc7};
@@ -104,6 +105,7 @@ bool change(Forgery kind, Packet& packet, const wire::Submessage& part, std::siz
       put(packet, place + part.body.size() - 4, kLate, little);
       return true;
     case Forgery::kMove:
+    case Forgery::kTellMoved:
       if (part.kind != wire::kData || part.writer() != kAnnouncer) return false;
       move_away(packet, part, place);
       return true;
@@ -128,7 +130,7 @@ std::optional<Packet> changed(Forgery kind, const Packet& genuine) {
 /// The same by a stranger, with a word for whom he speaks.
 Packet by_stranger(const Packet& packet) {
   Packet out = begin_as(packet);
-  std::ranges::copy(kNobody, out.begin() + 8);
+  std::ranges::copy(kNobody, out.begin() + kNamePlace);
   append(out, Packet{wire::kInfoSource, 1, 20, 0, 0, 0, 0, 0, 2, 2, 1, 15});
   append(out, wire::sender(packet));
   out.insert(out.end(), packet.begin() + wire::kHeader, packet.end());
@@ -227,6 +229,7 @@ const std::vector<NamedForgery>& forgeries() {
       {"move", Forgery::kMove},
       {"endpoints_leave", Forgery::kEndpointsLeave},
       {"info_source", Forgery::kInfoSource},
+      {"tell_moved", Forgery::kTellMoved},
       {"guess", Forgery::kGuess},
   };
   return all;
@@ -240,7 +243,9 @@ std::vector<Packet> forge(Forgery kind, const std::vector<Packet>& genuine) {
   for (const Packet& packet : genuine) {
     auto forged = changed(kind, packet);
     if (!forged) continue;
-    out.push_back(kind == Forgery::kInfoSource ? by_stranger(*forged) : std::move(*forged));
+    if (kind == Forgery::kInfoSource) forged = by_stranger(*forged);
+    if (kind == Forgery::kTellMoved) std::ranges::copy(kNobody, forged->begin() + kNamePlace);
+    out.push_back(std::move(*forged));
   }
   return out;
 }

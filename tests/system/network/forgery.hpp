@@ -18,6 +18,7 @@ enum class Forgery {
   kMove,            ///< that it listens elsewhere and is to be forgotten soon
   kEndpointsLeave,  ///< that its readers and writers are gone
   kInfoSource,      ///< kHeartbeatAhead, in a packet of a stranger who speaks for it
+  kTellMoved,       ///< kMove, said by a stranger of it
   kGuess,           ///< kGapAhead, of the writers anybody has: also where packets are encrypted
 };
 

@@ -87,6 +87,32 @@ TEST(PacketSources, AStrangerDoesNotSpeakForOneWhoToldItsPorts) {
   EXPECT_TRUE(sources.may_be_genuine(packet, {kHere, 1000}));
 }
 
+TEST(PacketSources, AStrangerDoesNotTellOfOneWhoToldItsPorts) {
+  PacketSources sources;
+  EXPECT_TRUE(sources.may_be_genuine(announcement_of(kLaser, {1000}), {kHere, 1000}));
+  const auto telling = [](std::uint8_t writer, std::uint8_t parameter, bool in_payload) {
+    Packet packet = packet_of(kStranger);
+    const std::uint8_t flags = in_payload ? 5 : 3;
+    const std::uint8_t size = in_payload ? 48 : 44;
+    packet.insert(packet.end(), {wire::kData, flags, size, 0, 0, 0, 16, 0, 0, 0, 0, 0});
+    packet.insert(packet.end(), {0, writer, 0, 0xc2, 0, 0, 0, 0, 1, 0, 0, 0});
+    if (in_payload) packet.insert(packet.end(), {0, 3, 0, 0});
+    packet.insert(packet.end(), {parameter, 0, 16, 0});
+    packet.insert(packet.end(), kLaser.begin(), kLaser.end());
+    packet.insert(packet.end(), {0, 0, 1, 0xc1, 1, 0, 0, 0});
+    return packet;
+  };
+  constexpr std::uint8_t kHash = 0x70;
+  constexpr std::uint8_t kParticipant = 0x50;
+  EXPECT_FALSE(sources.may_be_genuine(telling(1, kParticipant, true), {kHere, 2000}));
+  EXPECT_FALSE(sources.may_be_genuine(telling(1, kHash, false), {kHere, 2000}));
+  EXPECT_TRUE(sources.may_be_genuine(telling(1, kParticipant, true), {kHere, 1000}));
+  EXPECT_TRUE(sources.may_be_genuine(telling(9, kParticipant, true), {kHere, 2000}))
+      << "of what is no discovery";
+  // Fast DDS names another participant of the same process where it says what it answers.
+  EXPECT_TRUE(sources.may_be_genuine(telling(1, 0x0f, false), {kHere, 2000}));
+}
+
 TEST(PacketSources, NobodySpeaksInOnesOwnName) {
   PacketSources sources;
   sources.add_own(kLaser, {1000, 1001});
