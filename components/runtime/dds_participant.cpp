@@ -152,6 +152,11 @@ std::chrono::milliseconds forgotten_after(const DdsSettings& settings) {
   return std::max(all - kSignOfLife, all / 2);
 }
 
+std::chrono::milliseconds run_out_after(const DdsSettings& settings) {
+  // A look every half a second tells when the pause began.
+  return lease(settings) + std::chrono::milliseconds(800);
+}
+
 dds::DomainParticipantQos participant_qos(dds::DomainParticipantQos base, const DdsOptions& options,
                                           const std::shared_ptr<Introductions>& introductions) {
   const DdsSettings& settings = options.settings;

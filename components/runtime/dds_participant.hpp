@@ -22,6 +22,10 @@ inline constexpr std::chrono::seconds kSignOfLife{1};
 /// Who stood still for longer may have been forgotten by others: the lease counts from the last
 /// sign of life.
 [[nodiscard]] std::chrono::milliseconds forgotten_after(const DdsSettings& settings);
+/// Since the beginning of a pause, until the leases that it broke have run out everywhere. Who
+/// leaves the domain while one runs out kills others: Fast DDS 2.9.1 ends by an assertion
+/// (PDP::check_remote_participant_liveliness).
+[[nodiscard]] std::chrono::milliseconds run_out_after(const DdsSettings& settings);
 
 /// The one place where settings become a participant: transports, discovery, lease, security.
 /// Throws config::Error for an interface or host that is not there.

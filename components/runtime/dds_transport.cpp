@@ -246,8 +246,8 @@ class DdsReader : public Reader, private DdsEndpoint {
 
 DdsTransport::Impl::Impl(const DdsOptions& wanted) : options(wanted), present(join()) {
   if (!may_join_anew) return;
-  pause_watch =
-      std::make_unique<PauseWatch>(forgotten_after(options.settings), [this] { nudge(); });
+  pause_watch = std::make_unique<PauseWatch>(forgotten_after(options.settings),
+                                             run_out_after(options.settings), [this] { nudge(); });
 }
 
 std::unique_ptr<WatchedMembership> DdsTransport::Impl::join() {

@@ -20,12 +20,19 @@ bool PauseDetector::look(nanoseconds now) {
   const nanoseconds pause = now - last_look_;
   last_look_ = std::max(last_look_, now);
   if (pause <= limit_) return false;
+  begin_ = now - pause;
   pause_ = std::max(pause, pause_.value_or(pause));
   return true;
 }
 
-std::optional<nanoseconds> PauseDetector::take() {
+bool PauseDetector::has_pause() {
   const std::scoped_lock lock(mutex_);
+  return pause_.has_value();
+}
+
+std::optional<nanoseconds> PauseDetector::take(nanoseconds now, nanoseconds rest) {
+  const std::scoped_lock lock(mutex_);
+  if (now < begin_ + rest) return std::nullopt;
   return std::exchange(pause_, std::nullopt);
 }
 
@@ -35,21 +42,24 @@ nanoseconds PauseWatch::machine_time() {
   return std::chrono::seconds(now.tv_sec) + nanoseconds(now.tv_nsec);
 }
 
-PauseWatch::PauseWatch(nanoseconds limit, std::function<void()> on_pause, Clock clock)
+PauseWatch::PauseWatch(nanoseconds limit, nanoseconds rest, std::function<void()> on_pause,
+                       Clock clock)
     : clock_(std::move(clock)),
       detector_(limit, clock_()),
+      rest_(rest),
       period_(std::min(kLongestPeriod, limit / kLooksALimit)),
       on_pause_(std::move(on_pause)),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 std::optional<nanoseconds> PauseWatch::take() {
-  detector_.look(clock_());
-  return detector_.take();
+  const nanoseconds now = clock_();
+  detector_.look(now);
+  return detector_.take(now, rest_);
 }
 
 void PauseWatch::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
-    if (detector_.look(clock_())) on_pause_();
+    if (detector_.look(clock_()) || detector_.has_pause()) on_pause_();
     std::unique_lock lock(mutex_);
     wake_.wait_for(lock, stop, period_, [] { return false; });
   }

@@ -18,13 +18,18 @@ class PauseDetector {
 
   /// True when the look before was longer ago than the limit.
   bool look(std::chrono::nanoseconds now);
-  /// The longest pause that has ended since the last call; nothing when there was none.
-  [[nodiscard]] std::optional<std::chrono::nanoseconds> take();
+  /// The longest pause that has ended since the last call; nothing when there was none, or while
+  /// less than `rest` has passed since the last one began.
+  [[nodiscard]] std::optional<std::chrono::nanoseconds> take(std::chrono::nanoseconds now,
+                                                             std::chrono::nanoseconds rest);
+  /// Whether there is one to take, at once or later.
+  [[nodiscard]] bool has_pause();
 
  private:
   std::chrono::nanoseconds limit_;
   std::mutex mutex_;
   std::chrono::nanoseconds last_look_;
+  std::chrono::nanoseconds begin_{};  ///< of the last pause
   std::optional<std::chrono::nanoseconds> pause_;
 };
 
@@ -37,9 +42,10 @@ class PauseWatch {
   /// Since the machine was started, the time in which it was suspended included.
   static std::chrono::nanoseconds machine_time();
 
-  /// `on_pause`: a pause longer than `limit` is over; called on the watch's thread.
-  PauseWatch(std::chrono::nanoseconds limit, std::function<void()> on_pause,
-             Clock clock = machine_time);
+  /// `on_pause`: a pause longer than `limit` is over; called on the watch's thread until it is
+  /// taken, which it can be once `rest` has passed since it began.
+  PauseWatch(std::chrono::nanoseconds limit, std::chrono::nanoseconds rest,
+             std::function<void()> on_pause, Clock clock = machine_time);
 
   /// Looks, too. As PauseDetector::take().
   [[nodiscard]] std::optional<std::chrono::nanoseconds> take();
@@ -49,6 +55,7 @@ class PauseWatch {
 
   Clock clock_;
   PauseDetector detector_;
+  std::chrono::nanoseconds rest_;
   std::chrono::nanoseconds period_;
   std::function<void()> on_pause_;
   std::mutex mutex_;

@@ -87,7 +87,7 @@ class DiscoveryListener : public dds::DomainParticipantListener {
 
  private:
   template <class ProxyData>
-  void note(DiscoveryEvent::Kind kind, const ProxyData& data, WireQos qos, bool is_writer) {
+  void note(DiscoveryEvent::Kind kind, const ProxyData& data, const WireQos& qos, bool is_writer) {
     {
       const std::scoped_lock lock(mutex_);
       const auto name = names_.find(data.guid().guidPrefix);
@@ -96,7 +96,7 @@ class DiscoveryListener : public dds::DomainParticipantListener {
                                   .topic = {.name = data.topicName().to_string(),
                                             .type = data.typeName().to_string(),
                                             .keyed = data.topicKind() == rtps::WITH_KEY},
-                                  .qos = std::move(qos),
+                                  .qos = qos,
                                   .participant = name == names_.end() ? "" : name->second};
       if (kind == DiscoveryEvent::Kind::kLost) {
         known_.erase(endpoint.id);
@@ -203,9 +203,10 @@ class DdsRawReader : public RawReader, private DdsEndpoint, private dds::DataRea
     counterparts_.change(status.last_publication_handle, status.current_count_change);
   }
   void on_data_available(dds::DataReader* reader) override {
-    RawSample sample;
-    dds::SampleInfo info;
-    while (reader->take_next_sample(&sample.bytes, &info) == ReturnCode_t::RETCODE_OK) {
+    while (true) {
+      RawSample sample;
+      dds::SampleInfo info;
+      if (reader->take_next_sample(&sample.bytes, &info) != ReturnCode_t::RETCODE_OK) return;
       if (!info.valid_data) continue;  // only tells of a disposed or unregistered instance
       const auto& number = info.sample_identity.sequence_number();
       sample.writer = id_of(info.sample_identity.writer_guid());
@@ -213,7 +214,6 @@ class DdsRawReader : public RawReader, private DdsEndpoint, private dds::DataRea
       sample.source_time = to_time(info.source_timestamp);
       sample.reception_time = to_time(info.reception_timestamp);
       on_sample_(std::move(sample));
-      sample.bytes.clear();
     }
   }
 
@@ -287,10 +287,10 @@ struct RawParticipant::Impl {
       : options(std::move(wanted)),
         listener(on_news),
         seat{on_news, std::make_unique<Membership>(options, listener), {}},
-        pause_watch(forgotten_after(options.settings), on_news) {}
+        pause_watch(forgotten_after(options.settings), run_out_after(options.settings), on_news) {}
 };
 
-RawParticipant::RawParticipant(const DdsOptions& options, std::function<void()> on_news)
+RawParticipant::RawParticipant(const DdsOptions& options, const std::function<void()>& on_news)
     : impl_(std::make_unique<Impl>(options, on_news)) {}
 RawParticipant::~RawParticipant() = default;
 

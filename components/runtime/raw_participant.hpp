@@ -50,7 +50,7 @@ class RawParticipant {
  public:
   /// `on_news` is called from any thread when there are events to take or endpoints have found or
   /// lost counterparts.
-  RawParticipant(const DdsOptions& options, std::function<void()> on_news);
+  RawParticipant(const DdsOptions& options, const std::function<void()>& on_news);
   ~RawParticipant();
   RawParticipant(const RawParticipant&) = delete;
   RawParticipant& operator=(const RawParticipant&) = delete;
