@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <system_error>
 
@@ -36,9 +37,16 @@ int make_folder(const Ring& ring) {
   fail(ring.folder);
 }
 
-Layout without_checksum(Layout layout) {
-  layout.data_crc = false;
-  return layout;
+/// Bytes of the file system, or half of a small one, that are left to others: where it is /dev/shm,
+/// Fast DDS has its shared memory there and ends by SIGBUS when there is no room for it.
+constexpr std::uint64_t kReserve = std::uint64_t{256} << 20U;
+
+FileOptions options_in(const std::filesystem::path& folder, FileOptions options) {
+  options.layout.data_crc = false;
+  std::error_code error;
+  const std::filesystem::space_info space = std::filesystem::space(folder, error);
+  options.reserve = error ? 0 : std::min<std::uint64_t>(space.capacity / 2, kReserve);
+  return options;
 }
 
 }  // namespace
@@ -59,11 +67,13 @@ struct RingFolder::Segment {
 };
 
 RingFolder::RingFolder(const Ring& ring, const FileOptions& options, const Definitions& definitions)
-    : ring_(ring), options_(options), definitions_(definitions), lock_(make_folder(ring)) {
-  options_.layout = without_checksum(options_.layout);
+    : ring_(ring),
+      options_(options_in(ring.folder.parent_path(), options)),
+      definitions_(definitions),
+      lock_(make_folder(ring)) {
   try {
-    begin_ = std::make_unique<FileWriter>(create_file(ring_.folder / kBegin), options_.header,
-                                          options_.layout);
+    begin_ = std::make_unique<FileWriter>(create_file(ring_.folder / kBegin, options_.reserve),
+                                          options_.header, options_.layout);
   } catch (const std::system_error&) {
     ::close(lock_);
     std::error_code ignored;
@@ -90,8 +100,8 @@ void RingFolder::begin_segment(Nanoseconds time) {
   std::snprintf(name.data(), name.size(), "%08zu.mcap", ++segments_);
   auto segment = std::make_shared<Segment>(ring_.folder / name.data());
   segment->begin = time;
-  segment->file =
-      std::make_unique<FileWriter>(create_file(segment->path), options_.header, options_.layout);
+  segment->file = std::make_unique<FileWriter>(create_file(segment->path, options_.reserve),
+                                               options_.header, options_.layout);
   segment->source = open_plain_file(segment->path);
   const Definitions::View all = definitions_.after(0, 0);
   for (const Schema* schema : all.schemas) segment->file->add(*schema);
