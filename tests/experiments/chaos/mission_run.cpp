@@ -289,9 +289,8 @@ void MissionRun::finish() {
     complain("the launcher did not end well");
   if (std::ranges::any_of(pids, test::is_alive)) complain("something outlives the system");
   namespace TrueEgg = coop_msgs::msg::SimEgg_Constants;
-  const bool left_some = std::ranges::any_of(observer_.truth().eggs(), [](const auto& egg) {
-    return egg.state() != TrueEgg::COLLECTED;
-  });
+  const bool left_some = std::ranges::any_of(
+      observer_.truth().eggs(), [](const auto& egg) { return egg.state() != TrueEgg::COLLECTED; });
   if ((!wrong_.empty() || left_some) && !options_.out.empty()) {
     std::error_code ignored;
     std::filesystem::copy(system_.folder(), options_.out / fmt::format("mission-{}", number_),
