@@ -57,9 +57,10 @@ class Joined final : public Source {
 };
 
 /// The whole records of a file, behind what is there; `is_first`: with its begin. What was said
-/// before a segment counts for the oldest only: of the others it is in the ones before.
-void append(Joined& all, const fs::path& path, bool with_head, bool with_messages) {
-  if (!fs::exists(path)) return;
+/// before a segment counts for the oldest only: of the others it is in the ones before. False where
+/// the file has gone meanwhile, as those of a living ring do.
+bool append(Joined& all, const fs::path& path, bool with_head, bool with_messages) {
+  if (!fs::exists(path)) return false;
   const auto file = open_plain_file(path);
   try {
     const std::uint64_t begin = read_begin(file, {}).data_begin;
@@ -74,6 +75,7 @@ void append(Joined& all, const fs::path& path, bool with_head, bool with_message
   } catch (const FileError&) {
     // Here it was cut.
   }
+  return true;
 }
 
 std::vector<fs::path> segments_of(const fs::path& folder) {
@@ -124,8 +126,7 @@ std::shared_ptr<const Source> open_ring(const fs::path& folder) {
   append(*all, folder / RingFolder::kBegin, true, false);
   bool is_first = true;
   for (const fs::path& segment : segments_of(folder)) {
-    append(*all, segment, all->size() == 0, is_first);
-    is_first = false;
+    if (append(*all, segment, all->size() == 0, is_first)) is_first = false;
   }
   return with_tail(std::move(all), tail);
 }
