@@ -60,8 +60,13 @@ class Joined final : public Source {
 /// before a segment counts for the oldest only: of the others it is in the ones before. False where
 /// the file has gone meanwhile, as those of a living ring do.
 bool append(Joined& all, const fs::path& path, bool with_head, bool with_messages) {
-  if (!fs::exists(path)) return false;
-  const auto file = open_plain_file(path);
+  std::shared_ptr<const Source> file;
+  try {
+    file = open_plain_file(path);
+  } catch (const std::system_error&) {
+    if (!fs::exists(path)) return false;
+    throw;
+  }
   try {
     const std::uint64_t begin = read_begin(file, {}).data_begin;
     if (with_head) all.add(file, 0, begin);
@@ -109,6 +114,20 @@ fs::path unused(const fs::path& wanted) {
   return path;
 }
 
+/// Of a living ring that is in a hurry, a file may go before it is read: nothing then.
+std::shared_ptr<const Source> open_as_it_is(const fs::path& folder) {
+  const auto tail = read_tail(folder / RingFolder::kTailOf);
+  auto all = std::make_shared<Joined>(folder.string());
+  append(*all, folder / RingFolder::kBegin, true, false);
+  bool is_first = true;
+  for (const fs::path& segment : segments_of(folder)) {
+    if (!append(*all, segment, all->size() == 0, is_first)) return nullptr;
+    is_first = false;
+  }
+  return with_tail(std::move(all), tail);
+}
+constexpr int kTries = 100;
+
 bool is_own_folder(const fs::path& path) {
   struct stat status {};
   return ::lstat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode) &&
@@ -118,17 +137,13 @@ bool is_own_folder(const fs::path& path) {
 }  // namespace
 
 std::shared_ptr<const Source> open_ring(const fs::path& folder) {
-  if (!fs::exists(folder / RingFolder::kOrigin)) {
-    throw std::system_error(EISDIR, std::generic_category(), folder.string());
+  for (int left = kTries; left > 0; --left) {
+    if (!fs::exists(folder / RingFolder::kOrigin)) {
+      throw std::system_error(EISDIR, std::generic_category(), folder.string());
+    }
+    if (auto ring = open_as_it_is(folder)) return ring;
   }
-  const auto tail = read_tail(folder / RingFolder::kTailOf);
-  auto all = std::make_shared<Joined>(folder.string());
-  append(*all, folder / RingFolder::kBegin, true, false);
-  bool is_first = true;
-  for (const fs::path& segment : segments_of(folder)) {
-    if (append(*all, segment, all->size() == 0, is_first)) is_first = false;
-  }
-  return with_tail(std::move(all), tail);
+  throw std::system_error(EAGAIN, std::generic_category(), folder.string());
 }
 
 DeadRing::DeadRing(fs::path folder, int lock) : folder_(std::move(folder)), lock_(lock) {
