@@ -57,12 +57,16 @@ TEST_F(KeptFiles, AreNoMoreBytesThanAllowed) {
 
 TEST_F(KeptFiles, GoWhereTheDiskNeedsTheRoomUnlessThatDoesNotHelp) {
   make("record-1-fault.mcap");
-  std::filesystem::resize_file(folder_.path() / "record-1-fault.mcap", 1000);
+  make("record-2-fault.mcap");
   const auto free = std::filesystem::space(folder_.path()).available;
-  EXPECT_FALSE(keep_newest(folder_.path(), "record-", "-fault", {.free_bytes = 2 * free}));
-  EXPECT_THAT(names(), ::testing::ElementsAre("record-1-fault.mcap")) << "it would be lost in vain";
+  // As long as the disk has room, and it takes none: a hole.
+  std::filesystem::resize_file(folder_.path() / "record-1-fault.mcap", free);
+  EXPECT_FALSE(keep_newest(folder_.path(), "record-", "-fault", {.free_bytes = 4 * free}));
+  EXPECT_THAT(names(), ::testing::SizeIs(2)) << "they would be lost in vain";
   EXPECT_TRUE(keep_newest(folder_.path(), "record-", "-fault", {.free_bytes = free / 2}));
-  EXPECT_THAT(names(), ::testing::ElementsAre("record-1-fault.mcap")) << "there is room";
+  EXPECT_THAT(names(), ::testing::SizeIs(2)) << "there is room";
+  EXPECT_TRUE(keep_newest(folder_.path(), "record-", "-fault", {.free_bytes = free / 2 * 3}));
+  EXPECT_THAT(names(), ::testing::ElementsAre("record-2-fault.mcap"));
 }
 
 TEST_F(KeptFiles, AreAllWhereThereAreFewAndNoneWhereThereIsNoFolder) {
